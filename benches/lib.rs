@@ -1,0 +1,1 @@
+//! Baselines and inputs of the benchmarks.

@@ -1,0 +1,3 @@
+//! Benchmark: predicates.
+
+fn main() {}

@@ -1,0 +1,3 @@
+//! Benchmark: self_intersection.
+
+fn main() {}

@@ -1,0 +1,5 @@
+//! The command `welter`.
+
+mod render;
+
+fn main() {}

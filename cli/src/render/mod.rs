@@ -1,0 +1,1 @@
+//! A small deterministic renderer on the CPU.

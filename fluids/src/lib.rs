@@ -1,0 +1,12 @@
+//! Fluids over tracked surfaces and grids: procedural flows, grid smoke, vortex sheets with a fast multipole method,
+//! Voronoi liquid, and a B-spline cut-cell solver.
+//!
+//! # What it will promise
+//! * Each solver states what it conserves (circulation, volume, momentum, energy) and reports it every step.
+//! * Convergence orders are stated in the documentation and asserted by tests against analytic solutions.
+//! * The same scene gives the same bits for any number of threads.
+//!
+//! # What it holds today
+//! Nothing: the crate marks its place in the dependency direction predicates -> meshing -> tracking -> fluids.
+
+#![forbid(unsafe_code)]

@@ -1,0 +1,1 @@
+//! Readers and writers of surface files over `Read` and `Write`.

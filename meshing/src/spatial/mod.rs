@@ -1,0 +1,1 @@
+//! Spatial queries: bounding volume hierarchy, self-intersections, winding numbers.

@@ -1,0 +1,184 @@
+//! Integers of bounded size: the stage that has no exponent range to leave.
+//!
+//! Every finite `f64` is an integer multiple of 2^-1074 below 2^1024 in magnitude, hence an integer of at most
+//! 2098 bits after division by the smallest unit among the inputs. Sums and products of such integers have
+//! known sizes, so their capacity is fixed at compile time and nothing is allocated.
+//!
+//! * [`Integer<L>`] is a sign and a magnitude of at most `L` 64-bit limbs; only the used limbs cost time.
+//! * [`Unit`] is the common unit of a set of coordinates.
+
+use crate::Sign;
+
+/// Limbs of a coordinate or of a difference of two: 2099 bits in 33 limbs of 64 (2112 bits).
+pub(crate) const COORDINATE_LIMBS: usize = 33;
+
+/// Exponent of the least significant bit of `f64::MIN_POSITIVE`'s subnormal neighbours.
+const MIN_EXPONENT: i32 = -1074;
+
+/// Splits a finite `value` into `(negative, mantissa, exponent)` with `|value| = mantissa * 2^exponent`.
+pub(crate) fn decompose(value: f64) -> (bool, u64, i32) {
+    let bits = value.to_bits();
+    let biased = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = bits & ((1 << 52) - 1);
+    let mantissa = if biased == 0 { fraction } else { fraction | (1 << 52) };
+    (bits >> 63 == 1, mantissa, biased.max(1) - 1 + MIN_EXPONENT)
+}
+
+/// The largest power of two that divides every coordinate of a set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Unit {
+    exponent: i32,
+}
+
+impl Unit {
+    /// The unit of `values`, all finite.
+    pub(crate) fn of(values: impl IntoIterator<Item = f64>) -> Self {
+        let mut exponent = i32::MAX;
+        for value in values {
+            let (_, mantissa, e) = decompose(value);
+            if mantissa != 0 {
+                exponent = exponent.min(e + mantissa.trailing_zeros() as i32);
+            }
+        }
+        Self { exponent }
+    }
+
+    /// `value` as an integer number of units. `value` belongs to the set that the unit was made of.
+    pub(crate) fn integer(self, value: f64) -> Integer<COORDINATE_LIMBS> {
+        let (negative, mantissa, exponent) = decompose(value);
+        let mut result = Integer::ZERO;
+        if mantissa == 0 {
+            return result;
+        }
+        let zeros = mantissa.trailing_zeros();
+        let shift = (exponent + zeros as i32 - self.exponent) as usize;
+        let wide = u128::from(mantissa >> zeros) << (shift % 64);
+        let limb = shift / 64;
+        result.limbs[limb] = wide as u64;
+        result.len = limb + 1;
+        let high = (wide >> 64) as u64;
+        if high != 0 {
+            result.limbs[limb + 1] = high;
+            result.len = limb + 2;
+        }
+        result.negative = negative;
+        result
+    }
+}
+
+/// A signed integer of at most `L` limbs. `limbs[len..]` are zero, `limbs[len - 1]` is not.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Integer<const L: usize> {
+    negative: bool,
+    len: usize,
+    limbs: [u64; L],
+}
+
+impl<const L: usize> Integer<L> {
+    pub(crate) const ZERO: Self = Self { negative: false, len: 0, limbs: [0; L] };
+
+    pub(crate) fn sign(&self) -> Sign {
+        if self.len == 0 {
+            Sign::Zero
+        } else if self.negative {
+            Sign::Negative
+        } else {
+            Sign::Positive
+        }
+    }
+
+    pub(crate) fn negated(mut self) -> Self {
+        self.negative = !self.negative;
+        self
+    }
+
+    /// `self + other`.
+    ///
+    /// # Panics
+    /// If the sum needs more than `L` limbs; the callers' capacities are chosen so that it cannot.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        if self.negative == other.negative {
+            return self.magnitude_sum(other);
+        }
+        let (big, small) = if self.magnitude_less(other) { (other, self) } else { (self, other) };
+        let mut result = *big;
+        let mut borrow = false;
+        for i in 0..big.len {
+            if i >= small.len && !borrow {
+                break;
+            }
+            let (d, b1) = big.limbs[i].overflowing_sub(if i < small.len { small.limbs[i] } else { 0 });
+            let (d, b2) = d.overflowing_sub(u64::from(borrow));
+            result.limbs[i] = d;
+            borrow = b1 | b2;
+        }
+        result.trim();
+        result
+    }
+
+    /// `self - other`.
+    pub(crate) fn minus(&self, other: &Self) -> Self {
+        self.plus(&other.negated())
+    }
+
+    /// `a * b`; the capacity is checked when the program is compiled.
+    pub(crate) fn product<const A: usize, const B: usize>(a: &Integer<A>, b: &Integer<B>) -> Self {
+        const { assert!(L >= A + B, "a product has as many limbs as its factors together") };
+        let mut result = Self::ZERO;
+        if a.len == 0 || b.len == 0 {
+            return result;
+        }
+        for (i, &x) in a.limbs[..a.len].iter().enumerate() {
+            if x == 0 {
+                continue;
+            }
+            let mut carry = 0u64;
+            for (r, &y) in result.limbs[i..i + b.len].iter_mut().zip(&b.limbs[..b.len]) {
+                let t = u128::from(x) * u128::from(y) + u128::from(*r) + u128::from(carry);
+                *r = t as u64;
+                carry = (t >> 64) as u64;
+            }
+            result.limbs[i + b.len] = carry;
+        }
+        result.len = a.len + b.len;
+        result.negative = a.negative != b.negative;
+        result.trim();
+        result
+    }
+
+    fn magnitude_less(&self, other: &Self) -> bool {
+        if self.len != other.len {
+            return self.len < other.len;
+        }
+        self.limbs[..self.len].iter().rev().lt(other.limbs[..self.len].iter().rev())
+    }
+
+    fn magnitude_sum(&self, other: &Self) -> Self {
+        let (long, short) = if self.len < other.len { (other, self) } else { (self, other) };
+        let mut result = *long;
+        let mut carry = false;
+        for i in 0..long.len {
+            if i >= short.len && !carry {
+                break;
+            }
+            let (s, c1) = long.limbs[i].overflowing_add(if i < short.len { short.limbs[i] } else { 0 });
+            let (s, c2) = s.overflowing_add(u64::from(carry));
+            result.limbs[i] = s;
+            carry = c1 | c2;
+        }
+        if carry {
+            result.limbs[long.len] = 1;
+            result.len = long.len + 1;
+        }
+        result
+    }
+
+    fn trim(&mut self) {
+        while self.len > 0 && self.limbs[self.len - 1] == 0 {
+            self.len -= 1;
+        }
+        if self.len == 0 {
+            self.negative = false;
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! Number types in which the predicates' polynomials are evaluated.
+
+pub(crate) mod fixed_point;

@@ -1,0 +1,1 @@
+//! How primitives meet, by combinatorial case.

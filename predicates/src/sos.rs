@@ -1,0 +1,1 @@
+//! Symbolic perturbation: orientations that are never zero.

@@ -1,0 +1,1 @@
+//! Generators, exact oracles and fuzz bodies.

@@ -1,0 +1,5 @@
+//! Integration tests: meshing.
+mod io;
+mod shapes;
+mod spatial;
+mod surface;

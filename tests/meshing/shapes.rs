@@ -1,0 +1,1 @@
+//! Tests of `welter_meshing::shapes`.
