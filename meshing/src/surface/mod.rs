@@ -1,9 +1,23 @@
-//! Surface types.
+//! Surfaces of triangles, as types that promise more and more.
+//!
+//! ```text
+//! TriangleSoup         what a file holds: nothing is promised
+//!   TriMesh            finite positions, indices in range, no repeated index in a triangle
+//!     ClosedOrientedMesh   each directed edge has its reverse partner; may intersect itself
+//!       EmbeddedMesh       proven free of self-intersection
+//! ```
+//! Each step upward is a checking constructor that returns every defect with its ids; each step downward is free.
 
+mod closed_oriented;
+mod edges;
 mod ids;
+mod list;
 mod soup;
 mod tri_mesh;
 
+pub use closed_oriented::{ClosedOrientedDefects, ClosedOrientedError, ClosedOrientedMesh, EdgeDefect};
 pub use ids::{EdgeId, TriId, VertexId};
 pub use soup::{Group, TriangleSoup};
-pub use tri_mesh::TriMesh;
+pub use tri_mesh::{
+    MAX_TRIANGLES, MAX_VERTICES, NonFiniteVertex, TriMesh, TriMeshDefects, TriMeshError, TriangleIndices,
+};
