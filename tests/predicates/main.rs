@@ -1,1 +1,6 @@
-//! Integration tests: predicates.
+//! Integration tests of `welter_predicates`, against the exact oracles of the kit.
+
+mod family;
+mod laws;
+mod oracle;
+mod regressions;
