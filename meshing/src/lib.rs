@@ -3,8 +3,10 @@
 #![forbid(unsafe_code)]
 
 pub mod io;
+mod monitor;
 pub mod shapes;
 pub mod spatial;
 pub mod surface;
 
 pub use glam::DVec3;
+pub use monitor::{Cancelled, Monitor, Progress, Stage};
