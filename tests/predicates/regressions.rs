@@ -1,22 +1,16 @@
 //! Named inputs on which floating point predicates are known to go wrong, and input that is no number.
 
 use crate::family::{self, Predicate, for_each_predicate};
-use welter_kit::generate::number::power_of_two;
+use welter_kit::generate::number::{hex, power_of_two};
 use welter_predicates::{Sign, incircle, orient2d, orient3d};
-
-/// `mantissa * 2^exponent` with the mantissa's bits as a hexadecimal literal `0x1.<fraction>p<exponent>` has them.
-fn hex(negative: bool, fraction: u64, exponent: i32) -> f64 {
-    let value = f64::from_bits(1.0f64.to_bits() | fraction) * power_of_two(exponent);
-    if negative { -value } else { value }
-}
 
 #[test]
 fn incircle_of_mixed_exponents() {
     // Products leave the range of f64 at both ends: expansion arithmetic without a last stage gives infinity here.
-    let a = [hex(false, 0x7d38_6e62_43a5_4, -290), hex(false, 0x2a08_ae0b_0867_4, -512)];
-    let b = [hex(true, 0x099d_c4b9_3b81_a, -440), hex(true, 0x1112_a6c3_b251_4, -40)];
-    let c = [hex(false, 0x4721_c97f_24c2_4, 654), hex(false, 0x596e_20e0_0e41_a, -347)];
-    let d = [hex(true, 0x2b4e_39b7_3efc_0, -997), hex(true, 0xa69d_63ec_35c3_c, -608)];
+    let a = [hex("0x1.7d386e6243a54p-290"), hex("0x1.2a08ae0b08674p-512")];
+    let b = [hex("-0x1.099dc4b93b81ap-440"), hex("-0x1.1112a6c3b2514p-40")];
+    let c = [hex("0x1.4721c97f24c24p+654"), hex("0x1.596e20e00e41ap-347")];
+    let d = [hex("-0x1.2b4e39b73efc0p-997"), hex("-0x1.a69d63ec35c3cp-608")];
     assert_eq!(incircle(a, b, c, d), Sign::Negative);
     assert_eq!((family::INCIRCLE.oracle)(&[a, b, c, d]), -1);
 }

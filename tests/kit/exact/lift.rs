@@ -1,6 +1,6 @@
-//! Floating point numbers as unbounded integers and rationals, without rounding.
+//! Floating point numbers as unbounded integers, without rounding.
 
-use rug::{Integer, Rational};
+use rug::Integer;
 
 /// The odd (or zero) integer `m` and the exponent `e` with `value == m * 2^e`.
 fn decode(value: f64) -> (i64, i32) {
@@ -38,15 +38,10 @@ pub fn lift<const D: usize>(points: &[[f64; D]]) -> Vec<[Integer; D]> {
     points.iter().map(|point| point.map(whole)).collect()
 }
 
-/// The value as a rational.
-#[must_use]
-pub fn rational(value: f64) -> Rational {
-    Rational::from_f64(value).expect("an oracle speaks of finite numbers")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rug::Rational;
 
     #[test]
     fn lifted_coordinates_keep_their_ratios() {
@@ -56,7 +51,7 @@ mod tests {
         let factor = Rational::from(1) << 1074;
         for (point, whole) in points.iter().zip(&lifted) {
             for (&c, w) in point.iter().zip(whole) {
-                assert_eq!(Rational::from(rational(c) * &factor), *w);
+                assert_eq!(Rational::from_f64(c).unwrap() * &factor, *w);
             }
         }
         assert_eq!(lift(&[[0.0, -0.0]]), [[Integer::new(), Integer::new()]]);

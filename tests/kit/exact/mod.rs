@@ -1,9 +1,14 @@
-//! Exact oracles on unbounded integers and rationals.
+//! Exact oracles on unbounded integers.
 
+mod clip;
 mod determinant;
 mod lift;
+pub mod linear;
+mod meeting;
 mod orient;
 
+pub use clip::clip_to_box;
 pub use determinant::determinant;
-pub use lift::{lift, rational};
+pub use lift::lift;
+pub use meeting::{Corner, Meeting, meeting, meeting_of_ray};
 pub use orient::{in_sphere, orient};

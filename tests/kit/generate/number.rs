@@ -13,6 +13,22 @@ pub fn power_of_two(exponent: i32) -> f64 {
     }
 }
 
+/// The number that C writes as `text` in hexadecimal: `-0x1.8p-3` is -0.1875.
+///
+/// # Panics
+/// If `text` is not `[-]0x1.<at most 13 digits>p<exponent of a normal number>`.
+#[must_use]
+pub fn hex(text: &str) -> f64 {
+    let (negative, digits) = text.strip_prefix('-').map_or((false, text), |rest| (true, rest));
+    let (fraction, exponent) =
+        digits.strip_prefix("0x1.").and_then(|rest| rest.split_once('p')).expect("0x1. and p");
+    let bits = u64::from_str_radix(&format!("{fraction:0<13}"), 16).expect("hexadecimal digits");
+    assert!(bits < 1 << 52, "more than 13 digits");
+    let exponent: i32 = exponent.parse().expect("an exponent");
+    let value = f64::from_bits(1.0f64.to_bits() | bits) * power_of_two(exponent);
+    if negative { -value } else { value }
+}
+
 /// Uniform in `[-1, 1)`, a multiple of `2^-52`.
 pub fn uniform(entropy: &mut Entropy<'_>) -> f64 {
     (entropy.word() >> 11) as f64 * power_of_two(-52) - 1.0
@@ -107,6 +123,14 @@ mod tests {
             (f64::MIN_POSITIVE, 1.0, 1024.0)
         );
         assert!((power_of_two(1023) * 2.0).is_infinite());
+    }
+
+    #[test]
+    fn hexadecimal_text() {
+        assert_eq!(
+            (hex("-0x1.8p-3"), hex("0x1.0p+1"), hex("0x1.fffffffffffffp+1023")),
+            (-0.1875, 2.0, f64::MAX)
+        );
     }
 
     #[test]
