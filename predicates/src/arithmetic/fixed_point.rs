@@ -7,7 +7,8 @@
 //! * [`Integer<L>`] is a sign and a magnitude of at most `L` 64-bit limbs; only the used limbs cost time.
 //! * [`Unit`] is the common unit of a set of coordinates.
 
-use crate::Sign;
+use super::scaled::Scaled;
+use crate::polynomial::{Additive, Ring, Times};
 
 /// Limbs of a coordinate or of a difference of two: 2099 bits in 33 limbs of 64 (2112 bits).
 pub(crate) const COORDINATE_LIMBS: usize = 33;
@@ -40,7 +41,8 @@ impl Unit {
                 exponent = exponent.min(e + mantissa.trailing_zeros() as i32);
             }
         }
-        Self { exponent }
+        // All zero: any unit will do.
+        Self { exponent: if exponent == i32::MAX { 0 } else { exponent } }
     }
 
     /// `value` as an integer number of units. `value` belongs to the set that the unit was made of.
@@ -77,14 +79,16 @@ pub(crate) struct Integer<const L: usize> {
 impl<const L: usize> Integer<L> {
     pub(crate) const ZERO: Self = Self { negative: false, len: 0, limbs: [0; L] };
 
-    pub(crate) fn sign(&self) -> Sign {
-        if self.len == 0 {
-            Sign::Zero
-        } else if self.negative {
-            Sign::Negative
-        } else {
-            Sign::Positive
-        }
+    /// The leading bits, in units of 1.
+    fn scaled(&self) -> Scaled {
+        let Some(top) = self.len.checked_sub(1) else { return Scaled::ZERO };
+        let below = if top > 0 { self.limbs[top - 1] } else { 0 };
+        let wide = u128::from(self.limbs[top]) << 64 | u128::from(below);
+        // The upper 62 bits of `wide` from its leading bit on: never zero.
+        let shift = 128 - 62 - wide.leading_zeros() as i32;
+        let mantissa = (if shift >= 0 { wide >> shift } else { wide << -shift }) as i64;
+        let exponent = 64 * (top as i32 - 1) + shift;
+        Scaled { mantissa: if self.negative { -mantissa } else { mantissa }, exponent }
     }
 
     pub(crate) fn negated(mut self) -> Self {
@@ -114,11 +118,6 @@ impl<const L: usize> Integer<L> {
         }
         result.trim();
         result
-    }
-
-    /// `self - other`.
-    pub(crate) fn minus(&self, other: &Self) -> Self {
-        self.plus(&other.negated())
     }
 
     /// `a * b`; the capacity is checked when the program is compiled.
@@ -181,4 +180,60 @@ impl<const L: usize> Integer<L> {
             self.negative = false;
         }
     }
+}
+
+/// The integers of each degree.
+pub(crate) struct Integers;
+
+impl Ring for Integers {
+    type D1 = Integer<COORDINATE_LIMBS>;
+    type D2 = Integer<{ 2 * COORDINATE_LIMBS }>;
+    type D3 = Integer<{ 3 * COORDINATE_LIMBS }>;
+    type D4 = Integer<{ 4 * COORDINATE_LIMBS }>;
+    type D5 = Integer<{ 5 * COORDINATE_LIMBS }>;
+    type Outcome = Scaled;
+}
+
+impl<const L: usize> Additive for Integer<L> {
+    fn plus(&self, other: &Self) -> Self {
+        self.plus(other)
+    }
+    fn minus(&self, other: &Self) -> Self {
+        self.plus(&other.negated())
+    }
+}
+
+impl<const L: usize> From<Integer<L>> for Scaled {
+    fn from(value: Integer<L>) -> Self {
+        value.scaled()
+    }
+}
+
+macro_rules! products {
+    ($($a:literal * $b:literal;)*) => {$(
+        impl Times<Integer<{ $b * COORDINATE_LIMBS }>> for Integer<{ $a * COORDINATE_LIMBS }> {
+            type Product = Integer<{ ($a + $b) * COORDINATE_LIMBS }>;
+            fn times(&self, other: &Integer<{ $b * COORDINATE_LIMBS }>) -> Self::Product {
+                Integer::product(self, other)
+            }
+        }
+    )*};
+}
+
+products! {
+    1 * 1;
+    1 * 2;
+    2 * 2;
+    2 * 3;
+}
+
+/// The differences of the first points to the last one as numbers of units, and the exponent of the unit.
+/// All coordinates are finite.
+pub(crate) fn differences<const N: usize, const P: usize, const R: usize>(
+    points: &[[f64; N]; P],
+) -> (i32, [[Integer<COORDINATE_LIMBS>; N]; R]) {
+    let unit = Unit::of(points.as_flattened().iter().copied());
+    let last = points[P - 1].map(|x| unit.integer(x));
+    let row = |i: usize| core::array::from_fn(|j| unit.integer(points[i][j]).minus(&last[j]));
+    (unit.exponent, core::array::from_fn(row))
 }

@@ -1,3 +1,4 @@
 //! Number types in which the predicates' polynomials are evaluated.
 
 pub(crate) mod fixed_point;
+pub(crate) mod scaled;
