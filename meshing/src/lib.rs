@@ -8,5 +8,5 @@ pub mod shapes;
 pub mod spatial;
 pub mod surface;
 
-pub use glam::DVec3;
+pub use glam::{DVec2, DVec3};
 pub use monitor::{Cancelled, Monitor, Progress, Stage};

@@ -1,0 +1,101 @@
+//! What a generator refuses: [`ShapeError`], and the checks of parameters that all generators share.
+
+use crate::surface::{ClosedOrientedMesh, TriMesh, TriangleSoup};
+use glam::DVec3;
+use thiserror::Error;
+
+/// Most triangles a generator makes: about 2.4 GB of positions and indices.
+pub const MAX_SHAPE_TRIANGLES: u32 = 1 << 26;
+
+/// Lengths and coordinates of parameters lie between this and its reciprocal (or are zero, where that has a
+/// meaning), so that squares and cubes of them neither overflow nor vanish. A larger surface is a scaled copy.
+pub const MAX_LENGTH: f64 = 1e75;
+
+/// Why a generator refuses its parameters.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum ShapeError {
+    /// No generator of that name.
+    #[error("no shape is called {name:?}{}", suggestion(*nearest))]
+    UnknownName {
+        /// The name asked for.
+        name: String,
+        /// The most similar name there is, if one is similar at all.
+        nearest: Option<&'static str>,
+    },
+    /// A parameter is outside its range.
+    #[error("{parameter} is {value}, must be {range}")]
+    Parameter {
+        /// Its field name.
+        parameter: &'static str,
+        /// The value given.
+        value: f64,
+        /// The range it must lie in.
+        range: &'static str,
+    },
+    /// The edge length is too small for the extent of the shape.
+    #[error(
+        "edge length {edge_length} needs about {triangles:.3e} triangles, more than {MAX_SHAPE_TRIANGLES}"
+    )]
+    TooManyTriangles {
+        /// The edge length asked for.
+        edge_length: f64,
+        /// About how many triangles it needs.
+        triangles: f64,
+    },
+}
+
+fn suggestion(nearest: Option<&str>) -> String {
+    nearest.map(|name| format!("; did you mean {name:?}?")).unwrap_or_default()
+}
+
+/// Refuses a parameter whose `condition` does not hold (NaN never holds).
+pub(crate) fn require(
+    condition: bool,
+    parameter: &'static str,
+    value: f64,
+    range: &'static str,
+) -> Result<(), ShapeError> {
+    if condition { Ok(()) } else { Err(ShapeError::Parameter { parameter, value, range }) }
+}
+
+/// Refuses what is not a positive length.
+pub(crate) fn require_length(parameter: &'static str, value: f64) -> Result<(), ShapeError> {
+    let holds = (MAX_LENGTH.recip()..=MAX_LENGTH).contains(&value);
+    require(holds, parameter, value, "a length between 1e-75 and 1e75")
+}
+
+/// Refuses what is not a coordinate of moderate size.
+pub(crate) fn require_coordinates(parameter: &'static str, value: DVec3) -> Result<(), ShapeError> {
+    for coordinate in value.to_array() {
+        require(coordinate.abs() <= MAX_LENGTH, parameter, coordinate, "at most 1e75 in magnitude")?;
+    }
+    Ok(())
+}
+
+/// Refuses an edge length that is no length, or too small for a surface of about `area`.
+pub(crate) fn require_edge_length(edge_length: f64, area: f64) -> Result<(), ShapeError> {
+    require_length("edge_length", edge_length)?;
+    // An equilateral triangle of side 1 has area 0.43; right triangles of grids have 0.5 and rounding of
+    // counts adds some. Relative to the edge length first: no overflow.
+    let triangles = 2.4 * (area / edge_length / edge_length);
+    if triangles <= f64::from(MAX_SHAPE_TRIANGLES) {
+        Ok(())
+    } else {
+        Err(ShapeError::TooManyTriangles { edge_length, triangles })
+    }
+}
+
+/// How many edges of about `edge_length` divide `length`: at least `least`. The caller has bounded the area.
+pub(crate) fn divisions(length: f64, edge_length: f64, least: u32) -> u32 {
+    // A cast from f64 saturates; MAX_SHAPE_TRIANGLES bounds the count of a side too.
+    let count = (length / edge_length).ceil().min(f64::from(MAX_SHAPE_TRIANGLES));
+    (count as u32).max(least)
+}
+
+/// The mesh of a soup that a generator made.
+pub(crate) fn finish(soup: TriangleSoup) -> ClosedOrientedMesh {
+    let mesh =
+        TriMesh::new(soup).expect("parameters of moderate size give finite positions, generators valid ids");
+    ClosedOrientedMesh::new(mesh).expect("generators make closed, oriented surfaces")
+}
