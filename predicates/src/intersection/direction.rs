@@ -12,11 +12,9 @@
 
 use super::{P2, P3};
 use crate::Sign;
-use crate::arithmetic::fixed_point::{COORDINATE_LIMBS, Integer, Unit};
-
-type Coordinate = Integer<COORDINATE_LIMBS>;
-type Degree2 = Integer<{ 2 * COORDINATE_LIMBS }>;
-type Degree3 = Integer<{ 3 * COORDINATE_LIMBS }>;
+use crate::arithmetic::fixed_point::{COORDINATE_LIMBS, Integer, Integers, Unit};
+use crate::arithmetic::scaled::Scaled;
+use crate::polynomial::{self, Additive};
 
 /// 2^-53, the relative error of a rounded operation.
 const U: f64 = f64::EPSILON / 2.0;
@@ -35,11 +33,8 @@ pub(super) fn side_of_direction(o: P2, d: P2, t: P2) -> Sign {
     if value.abs() > 4.0 * U * (left.abs() + right.abs()) && safe(&[x, y, d[0], d[1]]) {
         return Sign::of(value);
     }
-    let points = Unit::of([o[0], o[1], t[0], t[1]]);
-    let vector = Unit::of(d);
-    let [x, y]: [Coordinate; 2] = core::array::from_fn(|k| points.integer(t[k]).minus(&points.integer(o[k])));
-    let [dx, dy] = d.map(|x| vector.integer(x));
-    Degree2::product(&dx, &y).minus(&Degree2::product(&dy, &x)).sign()
+    let unit = Unit::of([o[0], o[1], t[0], t[1]]);
+    Scaled::from(polynomial::orient2d::<Integers>(&[integers(d), difference(unit, t, o)])).sign()
 }
 
 /// The sign of `d . ((s - o) x (t - o))`: positive when `d`, `s - o`, `t - o` are right-handed.
@@ -57,21 +52,17 @@ pub(super) fn triple_sign(d: P3, o: P3, s: P3, t: P3) -> Sign {
     if value.abs() > 8.0 * U * permanent && safe(&a) && safe(&b) && safe(&d) {
         return Sign::of(value);
     }
-    triple_in_integers(d, o, s, t)
+    let unit = Unit::of([o, s, t].as_flattened().iter().copied());
+    let rows = [integers(d), difference(unit, s, o), difference(unit, t, o)];
+    Scaled::from(polynomial::orient3d::<Integers>(&rows)).sign()
 }
 
-fn triple_in_integers(d: P3, o: P3, s: P3, t: P3) -> Sign {
-    let points = Unit::of([o, s, t].as_flattened().iter().copied());
-    let vector = Unit::of(d);
-    let from_o = |p: P3| -> [Coordinate; 3] {
-        core::array::from_fn(|k| points.integer(p[k]).minus(&points.integer(o[k])))
-    };
-    let (a, b) = (from_o(s), from_o(t));
-    let mut sum = Degree3::ZERO;
-    for (k, &along) in d.iter().enumerate() {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let minor = Degree2::product(&a[i], &b[j]).minus(&Degree2::product(&a[j], &b[i]));
-        sum = sum.plus(&Degree3::product(&vector.integer(along), &minor));
-    }
-    sum.sign()
+/// A vector in its own unit, which has no part in the sign.
+fn integers<const N: usize>(d: [f64; N]) -> [Integer<COORDINATE_LIMBS>; N] {
+    let unit = Unit::of(d);
+    d.map(|x| unit.integer(x))
+}
+
+fn difference<const N: usize>(unit: Unit, p: [f64; N], o: [f64; N]) -> [Integer<COORDINATE_LIMBS>; N] {
+    core::array::from_fn(|k| unit.integer(p[k]).minus(&unit.integer(o[k])))
 }
