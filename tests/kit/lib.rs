@@ -9,4 +9,5 @@
 
 pub mod entropy;
 pub mod exact;
+pub mod fuzz;
 pub mod generate;

@@ -1,4 +1,4 @@
-//! What a closed box leaves of a segment or triangle, by clipping to one half space after another [Sutherland74].
+//! What a closed box leaves of a segment or triangle, by clipping to one half space after another \[Sutherland74\].
 
 use super::{lift, linear};
 use rug::Integer;

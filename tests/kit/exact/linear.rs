@@ -5,7 +5,7 @@ use rug::{Assign, Integer};
 /// The only solution of `sum x_i columns_i = target`, as numerators and one common nonzero denominator; nothing if there
 /// is no solution or the columns are dependent.
 ///
-/// Gauss-Jordan elimination in which every division is exact [Bareiss68].
+/// Gauss-Jordan elimination in which every division is exact \[Bareiss68\].
 #[must_use]
 pub fn solve(columns: &[&[Integer]], target: &[Integer]) -> Option<(Vec<Integer>, Integer)> {
     let unknowns = columns.len();
