@@ -5,53 +5,45 @@ use proptest::{prop_assert_eq, strategy::Strategy};
 use std::fmt::Debug;
 use welter_kit::exact;
 use welter_predicates as wp;
-use welter_predicates::Sign;
+use welter_predicates::{NonFinite, Sign, Stage};
 
-/// A predicate of `N` points of `D` dimensions with its oracle.
+/// A predicate of `N` points of `D` dimensions with its variants and its oracle.
 pub(crate) struct Predicate<const D: usize, const N: usize> {
     pub(crate) name: &'static str,
     pub(crate) sign: fn(&[[f64; D]; N]) -> Sign,
     pub(crate) sign_f32: fn(&[[f32; D]; N]) -> Sign,
+    pub(crate) value: fn(&[[f64; D]; N]) -> f64,
+    pub(crate) checked: fn(&[[f64; D]; N]) -> Result<Sign, NonFinite>,
+    pub(crate) staged: fn(&[[f64; D]; N]) -> (Sign, Stage),
     pub(crate) oracle: fn(&[[f64; D]]) -> i32,
+    pub(crate) determinant: fn(&[[f64; D]]) -> f64,
     /// Property-test cases for each kind of input; fewer where the oracle is slow.
     pub(crate) cases: u32,
 }
 
-pub(crate) const ORIENT2D: Predicate<2, 3> = Predicate {
-    name: "orient2d",
-    sign: |[a, b, c]| wp::orient2d(a, b, c),
-    sign_f32: |[a, b, c]| wp::orient2d(a, b, c),
-    oracle: exact::orient,
-    cases: 2000,
-};
-pub(crate) const ORIENT3D: Predicate<3, 4> = Predicate {
-    name: "orient3d",
-    sign: |[a, b, c, d]| wp::orient3d(a, b, c, d),
-    sign_f32: |[a, b, c, d]| wp::orient3d(a, b, c, d),
-    oracle: exact::orient,
-    cases: 1000,
-};
-pub(crate) const ORIENT4D: Predicate<4, 5> = Predicate {
-    name: "orient4d",
-    sign: |[a, b, c, d, e]| wp::orient4d(a, b, c, d, e),
-    sign_f32: |[a, b, c, d, e]| wp::orient4d(a, b, c, d, e),
-    oracle: exact::orient,
-    cases: 400,
-};
-pub(crate) const INCIRCLE: Predicate<2, 4> = Predicate {
-    name: "incircle",
-    sign: |[a, b, c, d]| wp::incircle(a, b, c, d),
-    sign_f32: |[a, b, c, d]| wp::incircle(a, b, c, d),
-    oracle: exact::in_sphere,
-    cases: 1000,
-};
-pub(crate) const INSPHERE: Predicate<3, 5> = Predicate {
-    name: "insphere",
-    sign: |[a, b, c, d, e]| wp::insphere(a, b, c, d, e),
-    sign_f32: |[a, b, c, d, e]| wp::insphere(a, b, c, d, e),
-    oracle: exact::in_sphere,
-    cases: 400,
-};
+/// Writes out the variants of one predicate, which differ in their names alone.
+macro_rules! predicate {
+    ($constant:ident, $d:literal, $n:literal, [$($p:ident)+], $sign:ident $value:ident $checked:ident,
+     $oracle:ident $determinant:ident, $cases:literal) => {
+        pub(crate) const $constant: Predicate<$d, $n> = Predicate {
+            name: stringify!($sign),
+            sign: |[$($p),+]| wp::$sign($($p),+),
+            sign_f32: |[$($p),+]| wp::$sign($($p),+),
+            value: |[$($p),+]| wp::$value($($p),+),
+            checked: |[$($p),+]| wp::$checked($($p),+),
+            staged: |[$($p),+]| wp::staged::$sign($($p),+),
+            oracle: exact::$oracle,
+            determinant: exact::$determinant,
+            cases: $cases,
+        };
+    };
+}
+
+predicate!(ORIENT2D, 2, 3, [a b c], orient2d orient2d_value try_orient2d, orient orient_value, 4000);
+predicate!(ORIENT3D, 3, 4, [a b c d], orient3d orient3d_value try_orient3d, orient orient_value, 4000);
+predicate!(ORIENT4D, 4, 5, [a b c d e], orient4d orient4d_value try_orient4d, orient orient_value, 1500);
+predicate!(INCIRCLE, 2, 4, [a b c d], incircle incircle_value try_incircle, in_sphere in_sphere_value, 4000);
+predicate!(INSPHERE, 3, 5, [a b c d e], insphere insphere_value try_insphere, in_sphere in_sphere_value, 1500);
 
 /// Runs a generic test body on each of the five predicates.
 macro_rules! for_each_predicate {

@@ -1,6 +1,10 @@
 //! Integration tests of `welter_predicates`, against the exact oracles of the kit.
 
+#![allow(clippy::unwrap_used, reason = "a panic is the report of a test")]
+
 mod family;
 mod laws;
 mod oracle;
+mod rates;
 mod regressions;
+mod values;

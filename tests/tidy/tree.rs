@@ -22,7 +22,8 @@ pub(crate) fn files(extensions: &[&str]) -> Vec<File> {
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(&folder).unwrap().map(Result::unwrap) {
             let (path, name) = (entry.path(), entry.file_name().into_string().unwrap());
-            if name.starts_with('.') || name == "target" || name.starts_with("target-") || name == "artifacts" {
+            if name.starts_with('.') || name == "target" || name.starts_with("target-") || name == "artifacts"
+            {
                 continue;
             }
             if entry.file_type().unwrap().is_dir() {

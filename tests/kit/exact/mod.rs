@@ -11,4 +11,4 @@ pub use clip::clip_to_box;
 pub use determinant::determinant;
 pub use lift::lift;
 pub use meeting::{Corner, Meeting, meeting, meeting_of_ray};
-pub use orient::{in_sphere, orient};
+pub use orient::{in_sphere, in_sphere_value, orient, orient_value};

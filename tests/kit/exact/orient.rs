@@ -8,30 +8,56 @@
 //! second, `|a|^2 - |q|^2` differs from `|a - q|^2` by a multiple of the other columns.
 
 use super::{determinant, lift};
-use rug::Integer;
+use rug::{Integer, Rational};
 
 /// The sign of the orientation of `D + 1` points of `D` dimensions.
 #[must_use]
 pub fn orient<const D: usize>(points: &[[f64; D]]) -> i32 {
-    assert_eq!(points.len(), D + 1);
-    let rows: Vec<Vec<Integer>> =
-        lift(points).into_iter().map(|point| point.into_iter().chain([Integer::from(1)]).collect()).collect();
-    sign(&determinant(&rows))
+    sign(&determinant(&orient_rows(lift(points))))
+}
+
+/// The determinant whose sign [`orient`] gives, of coordinates that are multiples of `2^-10`, rounded once.
+#[must_use]
+pub fn orient_value<const D: usize>(points: &[[f64; D]]) -> f64 {
+    let degree = u32::try_from(D).expect("few dimensions");
+    Rational::from((determinant(&orient_rows(fixed(points))), Integer::from(1) << (10 * degree))).to_f64()
 }
 
 /// The side of the last point of the sphere through the `D + 1` before it: positive inside if those are positively
 /// oriented.
 #[must_use]
 pub fn in_sphere<const D: usize>(points: &[[f64; D]]) -> i32 {
+    sign(&determinant(&in_sphere_rows(lift(points))))
+}
+
+/// The determinant whose sign [`in_sphere`] gives, of coordinates that are multiples of `2^-10`, rounded once.
+#[must_use]
+pub fn in_sphere_value<const D: usize>(points: &[[f64; D]]) -> f64 {
+    let degree = u32::try_from(D + 2).expect("few dimensions");
+    Rational::from((determinant(&in_sphere_rows(fixed(points))), Integer::from(1) << (10 * degree))).to_f64()
+}
+
+fn orient_rows<const D: usize>(points: Vec<[Integer; D]>) -> Vec<Vec<Integer>> {
+    assert_eq!(points.len(), D + 1);
+    points.into_iter().map(|point| point.into_iter().chain([Integer::from(1)]).collect()).collect()
+}
+
+fn in_sphere_rows<const D: usize>(points: Vec<[Integer; D]>) -> Vec<Vec<Integer>> {
     assert_eq!(points.len(), D + 2);
-    let rows: Vec<Vec<Integer>> = lift(points)
-        .into_iter()
-        .map(|point| {
-            let square = point.iter().fold(Integer::new(), |sum, c| sum + c.clone().square());
-            point.into_iter().chain([square, Integer::from(1)]).collect()
-        })
-        .collect();
-    sign(&determinant(&rows))
+    let row = |point: [Integer; D]| {
+        let square = point.iter().fold(Integer::new(), |sum, c| sum + c.clone().square());
+        point.into_iter().chain([square, Integer::from(1)]).collect()
+    };
+    points.into_iter().map(row).collect()
+}
+
+/// Coordinates in units of `2^-10`.
+fn fixed<const D: usize>(points: &[[f64; D]]) -> Vec<[Integer; D]> {
+    let whole = |c: f64| {
+        assert!((c * 1024.0).fract() == 0.0, "{c} is not a multiple of 2^-10");
+        Integer::from_f64(c * 1024.0).expect("finite")
+    };
+    points.iter().map(|point| point.map(whole)).collect()
 }
 
 fn sign(value: &Integer) -> i32 {
