@@ -41,6 +41,30 @@ impl<A, B> Contact<A, B> {
 }
 
 impl TriangleFeature {
+    /// The smallest feature whose closure contains both: that of the open segment between their points.
+    #[must_use]
+    pub fn join(self, other: Self) -> Self {
+        // By the set of vertices; edge `i` is the one without vertex `i + 2`.
+        match self.vertices() | other.vertices() {
+            0b001 => Self::Vertex(0),
+            0b010 => Self::Vertex(1),
+            0b100 => Self::Vertex(2),
+            0b011 => Self::Edge(0),
+            0b110 => Self::Edge(1),
+            0b101 => Self::Edge(2),
+            _ => Self::Interior,
+        }
+    }
+
+    /// The vertices of the feature's closure, one bit each.
+    fn vertices(self) -> u8 {
+        match self {
+            Self::Vertex(i) => 1 << i,
+            Self::Edge(i) => 1 << i | 1 << ((i + 1) % 3),
+            Self::Interior => 0b111,
+        }
+    }
+
     /// The feature of a point of the closed triangle that lies on the lines of the marked edges and of no other.
     /// A point of a proper triangle is never on all three.
     pub(super) fn on_edges(on: [bool; 3]) -> Self {

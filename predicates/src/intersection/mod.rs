@@ -43,14 +43,20 @@ mod hull;
 #[cfg(test)]
 mod oracle;
 mod planar;
+mod point_tetrahedron;
 mod point_triangle;
 mod ray_triangle;
+mod segment_box;
 mod segment_segment;
 mod segment_triangle;
 mod triangle_box;
 mod triangle_triangle;
 
 pub use feature::{Contact, SegmentFeature, TriangleFeature};
+pub use point_tetrahedron::{
+    PointTetrahedron, TetrahedronFeature, point_in_tetrahedron, tetrahedron_contains,
+    try_point_in_tetrahedron,
+};
 pub use point_triangle::{
     PointTriangle, point_in_triangle_2d, point_in_triangle_3d, triangle_contains_2d, triangle_contains_3d,
     try_point_in_triangle_2d, try_point_in_triangle_3d,
@@ -59,6 +65,10 @@ pub use ray_triangle::{
     RayFeature, RayTriangle, ray_intersects_triangle, ray_triangle, ray_triangle_axis,
     ray_triangle_direction, try_ray_triangle, try_ray_triangle_direction,
 };
+pub use segment_box::{
+    BoxFeature, PointBox, SegmentBox, Side, box_contains, point_in_box, segment_box, segment_intersects_box,
+    try_point_in_box, try_segment_box,
+};
 pub use segment_segment::{
     SegmentSegment, segment_segment_2d, segment_segment_3d, segments_intersect_2d, segments_intersect_3d,
     try_segment_segment_2d, try_segment_segment_3d,
@@ -66,7 +76,7 @@ pub use segment_segment::{
 pub use segment_triangle::{
     SegmentTriangle, segment_intersects_triangle, segment_triangle, try_segment_triangle,
 };
-pub use triangle_box::triangle_intersects_box;
+pub use triangle_box::{TriangleBox, triangle_box, triangle_intersects_box, try_triangle_box};
 pub use triangle_triangle::{
     Corners, TriangleContact, TriangleTriangle, triangle_triangle, triangles_intersect, try_triangle_triangle,
 };

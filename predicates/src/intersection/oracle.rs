@@ -146,4 +146,5 @@ impl Sequence {
     }
 }
 
+mod boxes;
 mod contacts;
