@@ -98,3 +98,18 @@ pub(crate) fn triangle(half_edge: u32) -> TriId {
 pub(crate) fn tail(mesh: &TriMesh, half_edge: u32) -> VertexId {
     mesh.triangles()[half_edge as usize / 3][half_edge as usize % 3]
 }
+
+/// The half-edge that follows in the same triangle.
+pub(crate) fn next(half_edge: u32) -> u32 {
+    if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
+}
+
+/// The half-edge that precedes in the same triangle.
+pub(crate) fn previous(half_edge: u32) -> u32 {
+    if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
+}
+
+/// The vertex of the half-edge's triangle that is not on the half-edge.
+pub(crate) fn opposite(mesh: &TriMesh, half_edge: u32) -> VertexId {
+    tail(mesh, previous(half_edge))
+}

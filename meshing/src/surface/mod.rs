@@ -9,15 +9,19 @@
 //! Each step upward is a checking constructor that returns every defect with its ids; each step downward is free.
 
 mod closed_oriented;
+mod duplicates;
 mod edges;
 mod ids;
 mod list;
 mod soup;
+mod topology;
 mod tri_mesh;
 
 pub use closed_oriented::{ClosedOrientedDefects, ClosedOrientedError, ClosedOrientedMesh, EdgeDefect};
+pub use duplicates::{degenerate_triangles, duplicate_triangles, duplicate_vertices};
 pub use ids::{EdgeId, TriId, VertexId};
 pub use soup::{Group, TriangleSoup};
+pub use topology::{BoundaryLoop, Component, Topology};
 pub use tri_mesh::{
     MAX_TRIANGLES, MAX_VERTICES, NonFiniteVertex, TriMesh, TriMeshDefects, TriMeshError, TriangleIndices,
 };
