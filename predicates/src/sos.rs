@@ -28,7 +28,7 @@
 //! points, and those of `insphere_sos` are `orient3d` of four of the five.
 //!
 //! **Complexity**: that of the plain predicate where it is not zero. Else minors of its matrix, few unless the
-//! points are degenerate in several ways at once; at most 34 for `orient2d`, 73, 209 and 501 for the others.
+//! points are degenerate in several ways at once: of at most 13, 73, 73 and 501 for the four predicates.
 
 mod expansion;
 #[cfg(test)]

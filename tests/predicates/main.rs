@@ -7,4 +7,5 @@ mod laws;
 mod oracle;
 mod rates;
 mod regressions;
+mod sos;
 mod values;

@@ -150,7 +150,8 @@ fn lifted_minor<const N: usize>(rows: &[[f64; N]], columns: &[usize]) -> Sign {
         (&[k], 2) => Scaled::from(x(0, k).times(&w(1)).minus(&x(1, k).times(&w(0)))),
         (&[k, l], 3) => {
             let minor = |i, j| minor2::<Integers>(&x(i, k), &x(i, l), &x(j, k), &x(j, l));
-            let sum = w(0).times(&minor(1, 2)).minus(&w(1).times(&minor(0, 2))).plus(&w(2).times(&minor(0, 1)));
+            let sum =
+                w(0).times(&minor(1, 2)).minus(&w(1).times(&minor(0, 2))).plus(&w(2).times(&minor(0, 1)));
             Scaled::from(sum)
         }
         _ => Scaled::ZERO,

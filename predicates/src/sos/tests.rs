@@ -258,7 +258,8 @@ fn empty_spheres_on_a_grid_tile_it() {
             }
             let [a, b, c, d] = t.map(|v| points[v]);
             let [u, v, w] = [a, b, c].map(|p| [p[0] - d[0], p[1] - d[1], p[2] - d[2]]);
-            volume += u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2])
+            volume += u[0] * (v[1] * w[2] - v[2] * w[1])
+                + u[1] * (v[2] * w[0] - v[0] * w[2])
                 + u[2] * (v[0] * w[1] - v[1] * w[0]);
             for face in [[t[0], t[1], t[2]], [t[0], t[3], t[1]], [t[1], t[3], t[2]], [t[2], t[3], t[0]]] {
                 // Rotated so that the least comes first: the orientation stays.
