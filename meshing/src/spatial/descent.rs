@@ -1,0 +1,159 @@
+//! Simultaneous descent of a hierarchy against itself or another: the candidates of pair queries.
+//!
+//! # What it promises
+//! * Every pair of leaves whose mapped boxes meet is visited exactly once.
+//! * The visits' output is collected in an order that depends on the trees alone, not on the threads.
+//!
+//! # Method
+//! A task is a pair of nodes whose boxes meet, or a node against itself. The first tasks are split breadth first until
+//! there are [`TASKS`]; each is then finished depth first by one thread into its own vector.
+
+use obvhs::bvh2::node::Bvh2Node;
+use rayon::prelude::*;
+
+use super::tree::{BoxTree, overlap};
+use crate::{Cancelled, Monitor, Stage};
+
+/// Tasks to split the work into: enough to keep the threads of large machines even, few enough that the breadth-first
+/// part stays negligible.
+const TASKS: usize = 2048;
+
+/// Steps of a task between two looks at the monitor.
+const STEPS_A_LOOK: u32 = 1 << 14;
+
+/// Two nodes to compare, of the same tree or of two; equal nodes of the same tree stand for all pairs below.
+type Task = (u32, u32);
+
+/// Calls `visit(i, j, out)` once for each two different boxes whose mapped boxes meet, in either order, and joins `out`.
+pub(crate) fn self_pairs<T: Send>(
+    tree: &BoxTree,
+    monitor: &Monitor<'_>,
+    stage: &'static str,
+    visit: impl Fn(u32, u32, &mut Vec<T>) + Sync,
+) -> Result<Vec<T>, Cancelled> {
+    Descent { left: tree, right: tree, same: true }.run(monitor, stage, visit)
+}
+
+/// Calls `visit(i, j, out)` once for each box `i` of `left` and `j` of `right` whose mapped boxes meet, and joins `out`.
+/// Both trees are in the same frame.
+pub(crate) fn pairs_between<T: Send>(
+    left: &BoxTree,
+    right: &BoxTree,
+    monitor: &Monitor<'_>,
+    stage: &'static str,
+    visit: impl Fn(u32, u32, &mut Vec<T>) + Sync,
+) -> Result<Vec<T>, Cancelled> {
+    debug_assert_eq!(left.frame, right.frame);
+    Descent { left, right, same: false }.run(monitor, stage, visit)
+}
+
+struct Descent<'t> {
+    left: &'t BoxTree,
+    right: &'t BoxTree,
+    /// Whether `left` and `right` are one tree: then a node may meet itself.
+    same: bool,
+}
+
+impl Descent<'_> {
+    fn run<T: Send>(
+        &self,
+        monitor: &Monitor<'_>,
+        stage: &'static str,
+        visit: impl Fn(u32, u32, &mut Vec<T>) + Sync,
+    ) -> Result<Vec<T>, Cancelled> {
+        let tasks = self.split();
+        let stage = monitor.stage(stage, tasks.len() as u64);
+        let found: Vec<Vec<T>> =
+            tasks.into_par_iter().map(|task| self.finish(task, &stage, &visit)).collect::<Result<_, _>>()?;
+        let mut all = Vec::with_capacity(found.iter().map(Vec::len).sum());
+        found.into_iter().for_each(|part| all.extend(part));
+        Ok(all)
+    }
+
+    fn roots(&self) -> Option<Task> {
+        let (left, right) = (self.left.bvh.nodes.first()?, self.right.bvh.nodes.first()?);
+        overlap(left.aabb(), right.aabb()).then_some((0, 0))
+    }
+
+    /// Splits the pair of roots breadth first.
+    fn split(&self) -> Vec<Task> {
+        let mut tasks: Vec<Task> = self.roots().into_iter().collect();
+        loop {
+            let mut next = Vec::with_capacity(4 * tasks.len());
+            let mut split_any = false;
+            for &task in &tasks {
+                if self.is_final(task) {
+                    next.push(task);
+                } else {
+                    split_any = true;
+                    self.expand(task, &mut next);
+                }
+            }
+            tasks = next;
+            if !split_any || tasks.len() >= TASKS {
+                return tasks;
+            }
+        }
+    }
+
+    fn is_final(&self, (i, j): Task) -> bool {
+        self.left.bvh.nodes[i as usize].is_leaf() && self.right.bvh.nodes[j as usize].is_leaf()
+    }
+
+    /// Replaces a task of which one node is not a leaf by its parts.
+    #[inline]
+    fn expand(&self, (i, j): Task, out: &mut Vec<Task>) {
+        let (a, b) = (&self.left.bvh.nodes[i as usize], &self.right.bvh.nodes[j as usize]);
+        if self.same && i == j {
+            let (l, r) = (a.first_index, a.first_index + 1);
+            let nodes = &self.left.bvh.nodes;
+            out.extend([l, r].into_iter().filter(|&c| !nodes[c as usize].is_leaf()).map(|c| (c, c)));
+            if overlap(nodes[l as usize].aabb(), nodes[r as usize].aabb()) {
+                out.push((l, r));
+            }
+        } else if b.is_leaf() || (!a.is_leaf() && size(a) >= size(b)) {
+            let children = [a.first_index, a.first_index + 1];
+            let meets = |&c: &u32| overlap(self.left.bvh.nodes[c as usize].aabb(), b.aabb());
+            out.extend(children.into_iter().filter(meets).map(|c| (c, j)));
+        } else {
+            let children = [b.first_index, b.first_index + 1];
+            let meets = |&c: &u32| overlap(self.right.bvh.nodes[c as usize].aabb(), a.aabb());
+            out.extend(children.into_iter().filter(meets).map(|c| (i, c)));
+        }
+    }
+
+    /// Finishes one task depth first.
+    fn finish<T>(
+        &self,
+        task: Task,
+        stage: &Stage<'_>,
+        visit: &impl Fn(u32, u32, &mut Vec<T>),
+    ) -> Result<Vec<T>, Cancelled> {
+        let mut found = Vec::new();
+        let mut stack = vec![task];
+        let mut steps = 0u32;
+        stage.check()?;
+        while let Some((i, j)) = stack.pop() {
+            steps = steps.wrapping_add(1);
+            if steps.is_multiple_of(STEPS_A_LOOK) {
+                stage.check()?;
+            }
+            let (a, b) = (&self.left.bvh.nodes[i as usize], &self.right.bvh.nodes[j as usize]);
+            if a.is_leaf() && b.is_leaf() {
+                if !self.same || i != j {
+                    visit(self.left.box_index(a), self.right.box_index(b), &mut found);
+                }
+            } else {
+                self.expand((i, j), &mut stack);
+            }
+        }
+        stage.advance(1);
+        Ok(found)
+    }
+}
+
+/// What decides which of two nodes is split: the larger one, so that both shrink together.
+#[inline]
+fn size(node: &Bvh2Node) -> f32 {
+    node.aabb().half_area()
+}
