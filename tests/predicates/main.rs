@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a panic is the report of a test")]
 
 mod family;
+mod intersection;
 mod laws;
 mod oracle;
 mod rates;

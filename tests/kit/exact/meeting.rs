@@ -70,16 +70,32 @@ pub fn meeting<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> Meeting {
     enumerate::<D>(&points(lifted), &points(second))
 }
 
-/// The intersection of the ray from `origin` along `direction` with the hull of `b`.
+/// The intersection of the ray from `origin` along the vector `direction` with the hull of `b`.
 ///
 /// Of the first set, bit 0 is the origin and bit 1 the direction: `face_a() == 1` says that only the origin meets `b`.
 #[must_use]
 pub fn meeting_of_ray<const D: usize>(origin: [f64; D], direction: [f64; D], b: &[[f64; D]]) -> Meeting {
-    let mut lifted = lift(&[&[origin, direction], b].concat());
-    let second = lifted.split_off(2);
-    let mut ray = points(lifted);
+    let mut ray = points(lift(&[&[origin, direction], b].concat()));
+    let second = ray.split_off(2);
     ray[1].counts = false;
-    enumerate::<D>(&ray, &points(second))
+    enumerate::<D>(&ray, &second)
+}
+
+/// The intersection of the ray from `origin` through another point with the hull of `b`; as [`meeting_of_ray`].
+#[must_use]
+pub fn meeting_of_ray_through<const D: usize>(
+    origin: [f64; D],
+    through: [f64; D],
+    b: &[[f64; D]],
+) -> Meeting {
+    let mut ray = points(lift(&[&[origin, through], b].concat()));
+    let second = ray.split_off(2);
+    for axis in 0..D {
+        let start = ray[0].coordinates[axis].clone();
+        ray[1].coordinates[axis] -= start;
+    }
+    ray[1].counts = false;
+    enumerate::<D>(&ray, &second)
 }
 
 /// A generator of a convex set: a point, or a direction if it does not count in the sum of weights.

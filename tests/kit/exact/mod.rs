@@ -10,5 +10,5 @@ mod orient;
 pub use clip::clip_to_box;
 pub use determinant::determinant;
 pub use lift::lift;
-pub use meeting::{Corner, Meeting, meeting, meeting_of_ray};
+pub use meeting::{Corner, Meeting, meeting, meeting_of_ray, meeting_of_ray_through};
 pub use orient::{in_sphere, in_sphere_value, orient, orient_value};
