@@ -41,6 +41,8 @@ mod direction;
 mod feature;
 mod hull;
 #[cfg(test)]
+mod named_cases;
+#[cfg(test)]
 mod oracle;
 mod planar;
 mod point_tetrahedron;

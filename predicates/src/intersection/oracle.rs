@@ -148,3 +148,4 @@ impl Sequence {
 
 mod boxes;
 mod contacts;
+mod laws;

@@ -82,7 +82,7 @@ fn random_box(random: &mut Sequence, reach: i64, round: i64) -> ([f64; 3], [f64;
 #[test]
 fn segment_box_names_the_face_pairs_of_the_slow_twin() {
     let mut random = Sequence(5);
-    for round in 0..6000 {
+    for round in 0..3000 {
         let reach = 1 + round % 3;
         let s: [[f64; 3]; 2] = random.points(reach + 1);
         let (min, max) = random_box(&mut random, reach, round);
@@ -175,7 +175,7 @@ fn triangle_box_agrees_with_the_slow_twin() {
 #[test]
 fn points_in_triangles_and_tetrahedra_agree_with_the_slow_twin() {
     let mut random = Sequence(7);
-    for round in 0..6000 {
+    for round in 0..3000 {
         let reach = 1 + round % 3;
         let [p]: [[f64; 3]; 1] = random.points(reach);
         let mut v: [[f64; 3]; 4] = random.points(reach);

@@ -38,7 +38,7 @@ fn generators<const P: usize>(points: [[f64; 3]; P]) -> [Generator; P] {
 #[test]
 fn triangle_triangle_names_the_face_pairs_of_the_slow_twin() {
     let mut random = Sequence(1);
-    for round in 0..6000 {
+    for round in 0..3000 {
         let reach = 1 + round % 3;
         let mut a: [[f64; 3]; 3] = random.points(reach);
         let mut b: [[f64; 3]; 3] = random.points(reach);
@@ -76,7 +76,7 @@ fn triangle_triangle_names_the_face_pairs_of_the_slow_twin() {
 #[test]
 fn segment_triangle_names_the_face_pairs_of_the_slow_twin() {
     let mut random = Sequence(2);
-    for round in 0..6000 {
+    for round in 0..3000 {
         let reach = 1 + round % 3;
         let mut s: [[f64; 3]; 2] = random.points(reach);
         let mut t: [[f64; 3]; 3] = random.points(reach);
@@ -110,7 +110,7 @@ fn segment_triangle_names_the_face_pairs_of_the_slow_twin() {
 #[test]
 fn segment_segment_names_the_face_pairs_of_the_slow_twin() {
     let mut random = Sequence(3);
-    for round in 0..8000 {
+    for round in 0..4000 {
         let reach = 1 + round % 4;
         let mut a: [[f64; 3]; 2] = random.points(reach);
         let mut b: [[f64; 3]; 2] = random.points(reach);
@@ -142,7 +142,7 @@ fn segment_segment_names_the_face_pairs_of_the_slow_twin() {
 #[test]
 fn ray_triangle_names_the_face_pairs_of_the_slow_twin() {
     let mut random = Sequence(4);
-    for round in 0..8000 {
+    for round in 0..4000 {
         let reach = 1 + round % 3;
         let mut o: [f64; 3] = random.points::<3, 1>(reach)[0];
         let mut d: [f64; 3] = random.points::<3, 1>(reach)[0];
