@@ -69,17 +69,30 @@ fn column_maxima<const N: usize, const R: usize>(rows: &[[f64; N]; R]) -> [f64; 
     })
 }
 
+/// The sum of the magnitudes in each column: not below the maximum, and quicker where there are few columns
+/// (measured on orient3d: the compiler makes branches of the maxima there, which random input mispredicts).
+#[inline(always)]
+fn column_sums<const N: usize, const R: usize>(rows: &[[f64; N]; R]) -> [f64; N] {
+    core::array::from_fn(|j| {
+        let mut sum = rows[0][j].abs();
+        for row in &rows[1..] {
+            sum += row[j].abs();
+        }
+        sum
+    })
+}
+
 /// Error bound of [`crate::polynomial::orient2d`].
 #[inline(always)]
 pub(crate) fn orient2d(rows: &[[f64; 2]; 2]) -> f64 {
-    let [mx, my] = column_maxima(rows);
+    let [mx, my] = column_sums(rows);
     ((SIZE_2D * mx) * my) * (ORIENT2D * U / SIZE_2D) + UNDERFLOW
 }
 
 /// Error bound of [`crate::polynomial::orient3d`].
 #[inline(always)]
 pub(crate) fn orient3d(rows: &[[f64; 3]; 3]) -> f64 {
-    let [mx, my, mz] = column_maxima(rows);
+    let [mx, my, mz] = column_sums(rows);
     ((SIZE_3D * mx) * my) * mz * (ORIENT3D * U / SIZE_3D) + (UNDERFLOW * mz + UNDERFLOW)
 }
 

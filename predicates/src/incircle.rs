@@ -8,8 +8,7 @@
 //!         - b -               for a, b, c clockwise the signs are opposite
 //! ```
 //!
-//! For `a`, `b`, `c` on one line the circle is that line and its left side, seen from `a` to `b` to `c`, is... either:
-//! the determinant is the product of the line's side and the order of the points on it.
+//! For `a`, `b`, `c` on one line the circle is that line, and the two signs tell its sides apart.
 
 use crate::polynomial::{self, Ring, Rounded};
 use crate::stage::{Predicate, Stage, settle};

@@ -1,7 +1,8 @@
 //! The stages of an evaluation: [`Stage`], and the ladder that every predicate climbs.
 
 use crate::arithmetic::fixed_point;
-use crate::arithmetic::scaled::Scaled;
+use crate::arithmetic::lattice::{Lattice, Words};
+use crate::arithmetic::scaled::Exact;
 use crate::polynomial::Ring;
 use crate::{Sign, stats};
 
@@ -11,6 +12,8 @@ use crate::{Sign, stats};
 pub enum Stage {
     /// The determinant in rounded `f64` is larger than its error bound.
     Filter,
+    /// Integers of a few machine words: all bits of all coordinates lie within 61 binary places.
+    Lattice,
     /// Integers of up to 2100 bits per coordinate: no exponent range to leave.
     Integer,
     /// None: a coordinate was infinite or not a number, and the sign is [`Sign::Zero`].
@@ -19,7 +22,7 @@ pub enum Stage {
 
 impl Stage {
     /// All stages, in the order in which they are tried.
-    pub const ALL: [Self; 3] = [Self::Filter, Self::Integer, Self::NonFinite];
+    pub const ALL: [Self; 4] = [Self::Filter, Self::Lattice, Self::Integer, Self::NonFinite];
 }
 
 /// A predicate: `P` points of `N` coordinates, reduced to `R = P - 1` rows of differences to the last point.
@@ -39,8 +42,8 @@ pub(crate) trait Answer: Copy {
     const ZERO: Self;
     /// From a rounded value, neither zero nor NaN nor infinite, whose sign is right.
     fn of_rounded(value: f64) -> Self;
-    /// From an exact value `mantissa * 2^exponent`.
-    fn of_scaled(value: Scaled) -> Self;
+    /// From an exact value in units of `2^exponent`.
+    fn of_exact(value: &impl Exact, exponent: i32) -> Self;
 }
 
 impl Answer for Sign {
@@ -50,7 +53,7 @@ impl Answer for Sign {
         Sign::of_nonzero(value)
     }
     #[inline(always)]
-    fn of_scaled(value: Scaled) -> Self {
+    fn of_exact(value: &impl Exact, _: i32) -> Self {
         value.sign()
     }
 }
@@ -62,8 +65,8 @@ impl Answer for f64 {
         value
     }
     #[inline(always)]
-    fn of_scaled(value: Scaled) -> Self {
-        value.to_f64()
+    fn of_exact(value: &impl Exact, exponent: i32) -> Self {
+        value.scaled().times_power_of_two(exponent).to_f64()
     }
 }
 
@@ -87,7 +90,10 @@ where
         stats::count(Q::KIND, Stage::Filter);
         return (A::of_rounded(value), Stage::Filter);
     }
-    settle_exactly::<Q, A, N, P, R>(points)
+    // A fresh array, made on this path only: passing `points` on would keep the coordinates of the fast path
+    // in memory instead of registers.
+    let copy = core::array::from_fn(|i| core::array::from_fn(|j| points[i][j]));
+    settle_exactly::<Q, A, N, P, R>(&copy)
 }
 
 /// The stages after the filter.
@@ -102,8 +108,13 @@ where
         stats::count(Q::KIND, Stage::NonFinite);
         return (A::ZERO, Stage::NonFinite);
     }
+    if let Some(lattice) = Lattice::of(points) {
+        let value = Q::polynomial::<Words>(&lattice.rows());
+        stats::count(Q::KIND, Stage::Lattice);
+        return (A::of_exact(&value, Q::DEGREE * lattice.exponent), Stage::Lattice);
+    }
     let (unit, rows) = fixed_point::differences(points);
     let value = Q::polynomial::<fixed_point::Integers>(&rows);
     stats::count(Q::KIND, Stage::Integer);
-    (A::of_scaled(value.times_power_of_two(Q::DEGREE * unit)), Stage::Integer)
+    (A::of_exact(&value, Q::DEGREE * unit), Stage::Integer)
 }

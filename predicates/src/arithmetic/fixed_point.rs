@@ -83,12 +83,7 @@ impl<const L: usize> Integer<L> {
     fn scaled(&self) -> Scaled {
         let Some(top) = self.len.checked_sub(1) else { return Scaled::ZERO };
         let below = if top > 0 { self.limbs[top - 1] } else { 0 };
-        let wide = u128::from(self.limbs[top]) << 64 | u128::from(below);
-        // The upper 62 bits of `wide` from its leading bit on: never zero.
-        let shift = 128 - 62 - wide.leading_zeros() as i32;
-        let mantissa = (if shift >= 0 { wide >> shift } else { wide << -shift }) as i64;
-        let exponent = 64 * (top as i32 - 1) + shift;
-        Scaled { mantissa: if self.negative { -mantissa } else { mantissa }, exponent }
+        Scaled::of_words(self.negative, self.limbs[top], below, 64 * (top as i32 - 1))
     }
 
     pub(crate) fn negated(mut self) -> Self {

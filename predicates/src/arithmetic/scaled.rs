@@ -10,16 +10,43 @@ pub(crate) struct Scaled {
     pub(crate) exponent: i32,
 }
 
+/// An exactly known number.
+pub(crate) trait Exact {
+    fn sign(&self) -> Sign;
+    fn scaled(&self) -> Scaled;
+}
+
+impl Exact for Scaled {
+    #[inline]
+    fn sign(&self) -> Sign {
+        Scaled::sign(*self)
+    }
+    #[inline]
+    fn scaled(&self) -> Scaled {
+        *self
+    }
+}
+
 impl Scaled {
     pub(crate) const ZERO: Self = Self { mantissa: 0, exponent: 0 };
 
-    #[inline(always)]
+    #[inline]
     pub(crate) fn sign(self) -> Sign {
         match self.mantissa.signum() {
             1 => Sign::Positive,
             -1 => Sign::Negative,
             _ => Sign::Zero,
         }
+    }
+
+    /// The number whose magnitude has the leading words `high`, not zero, and `low`, the latter in units of
+    /// `2^exponent`.
+    pub(crate) fn of_words(negative: bool, high: u64, low: u64, exponent: i32) -> Self {
+        let wide = u128::from(high) << 64 | u128::from(low);
+        // The upper 62 bits from the leading one on: never zero.
+        let shift = 128 - 62 - wide.leading_zeros() as i32;
+        let mantissa = (if shift >= 0 { wide >> shift } else { wide << -shift }) as i64;
+        Self { mantissa: if negative { -mantissa } else { mantissa }, exponent: exponent + shift }
     }
 
     #[inline(always)]

@@ -1,3 +1,0 @@
-//! Benchmark: predicates.
-
-fn main() {}
