@@ -1,1 +1,13 @@
-//! Integration tests: cli.
+//! Integration tests: the command `welter`, run as a user or a script runs it.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+#![allow(clippy::print_stdout, reason = "a test that cannot run here says so")]
+
+mod convert;
+mod doctor;
+mod harness;
+mod info;
+mod interrupt;
+mod outputs;
+mod shape;
+mod usage;

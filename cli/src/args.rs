@@ -1,0 +1,56 @@
+//! The command line: global options and the list of commands.
+
+use crate::commands::{completions, convert, doctor, info, shape};
+use crate::progress::ProgressMode;
+use clap::{Parser, Subcommand, value_parser};
+
+/// Exact computational geometry on triangle surfaces, from the command line.
+#[derive(Debug, Parser)]
+#[command(name = "welter", version, propagate_version = true, max_term_width = 100, after_help = AFTER)]
+pub(crate) struct Cli {
+    #[command(flatten)]
+    pub(crate) global: Global,
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const AFTER: &str = "\
+Exit codes: 0 ok, 1 own bug, 2 usage, 3 bad geometry, 4 unreadable or unsupported file, 6 would pass the
+memory limit, 7 output cannot be written, 130 interrupted. `welter doctor --codes` lists every error code.";
+
+/// Options of every command.
+#[derive(clap::Args, Clone, Debug)]
+#[command(next_help_heading = "Global options")]
+pub(crate) struct Global {
+    /// Only errors; the exit code and --json tell the result
+    #[arg(short, long, global = true)]
+    pub(crate) quiet: bool,
+    /// Tell the stages and their seconds (-vv: details)
+    #[arg(short, long, global = true, action = clap::ArgAction::Count, conflicts_with = "quiet")]
+    pub(crate) verbose: u8,
+    /// Exactly one JSON object on standard output; text for people goes to standard error
+    #[arg(long, global = true)]
+    pub(crate) json: bool,
+    /// Threads to use [default: all]; the result is the same for any number
+    #[arg(short = 'j', long, global = true, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Progress on standard error: a bar on a terminal, plain lines, none, or JSON lines
+    #[arg(long, global = true, value_enum, default_value_t = ProgressMode::Auto, value_name = "HOW")]
+    pub(crate) progress: ProgressMode,
+    /// Overwrite outputs that exist
+    #[arg(long, global = true)]
+    pub(crate) force: bool,
+    /// Seed of everything drawn at random (no command of this version draws anything)
+    #[arg(long, global = true, default_value_t = 0, value_name = "N")]
+    pub(crate) seed: u64,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Shape(shape::Args),
+    Convert(convert::Args),
+    Info(info::Args),
+    Doctor(doctor::Args),
+    Completions(completions::Args),
+}
