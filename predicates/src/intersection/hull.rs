@@ -13,8 +13,8 @@ use crate::{orient2d, orient3d};
 /// True when every coordinate is finite: what the unchecked entry points ask first.
 #[inline]
 pub(super) fn all_finite<const N: usize>(points: &[[f64; N]]) -> bool {
-    // `x * 0.0` is a zero unless `x` is infinite or NaN; one sum has no branch for each coordinate.
-    points.as_flattened().iter().fold(0.0, |sum, x| sum + x * 0.0) == 0.0
+    // Without a branch for each coordinate.
+    points.as_flattened().iter().fold(true, |finite, x| finite & (x.abs() <= f64::MAX))
 }
 
 /// True when the bounding boxes of two sets of points are disjoint.

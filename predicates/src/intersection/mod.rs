@@ -45,6 +45,7 @@ mod named_cases;
 #[cfg(test)]
 mod oracle;
 mod planar;
+mod plane;
 mod point_tetrahedron;
 mod point_triangle;
 mod ray_triangle;

@@ -273,7 +273,7 @@ impl Ray {
 }
 
 fn case(ray: &Ray, t: [P3; 3]) -> RayTriangle {
-    if !all_finite(&t) || !ray.is_finite() || ray.misses_box(&t) {
+    if ray.misses_box(&t) || !all_finite(&t) || !ray.is_finite() {
         return RayTriangle::Disjoint;
     }
     let Some((at, edges)) = stab(|i| ray.edge(t[i], t[(i + 1) % 3])) else {

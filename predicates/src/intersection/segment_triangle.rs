@@ -12,6 +12,7 @@
 
 use super::hull::{Hull3, all_finite, boxes_disjoint};
 use super::planar::{Carrier, project, proper_axis};
+use super::plane;
 use super::{Contact, P3, SegmentFeature, TriangleFeature};
 use crate::finite::check_finite;
 use crate::{NonFinite, Point, Sign, orient3d};
@@ -93,14 +94,14 @@ pub fn try_segment_triangle(
 }
 
 fn case(s: [P3; 2], t: [P3; 3]) -> SegmentTriangle {
-    if !all_finite(&[s[0], s[1], t[0], t[1], t[2]]) || boxes_disjoint(&s, &t) {
+    if boxes_disjoint(&s, &t) {
         return SegmentTriangle::Disjoint;
     }
-    let sides = s.map(|p| orient3d(t[0], t[1], t[2], p));
-    if sides[0] == sides[1] {
-        if sides[0] != Sign::Zero {
-            return SegmentTriangle::Disjoint;
-        }
+    let sides = plane::sides(&t, &s);
+    if sides[0] * sides[1] == Sign::Positive || !all_finite(&s) || !all_finite(&t) {
+        return SegmentTriangle::Disjoint;
+    }
+    if sides == [Sign::Zero; 2] {
         // Coplanar, or the triangle has no plane.
         let hulls = [Hull3::of_segment(s), Hull3::of_triangle(t)];
         let (a, b) = (!hulls[0].is_segment(), !hulls[1].is_triangle());
@@ -114,7 +115,7 @@ fn case(s: [P3; 2], t: [P3; 3]) -> SegmentTriangle {
 
 /// The case of a proper segment and a proper triangle.
 pub(super) fn proper_segment_triangle(s: [P3; 2], t: [P3; 3]) -> SegmentTriangle {
-    with_sides(s, t, s.map(|p| orient3d(t[0], t[1], t[2], p)))
+    with_sides(s, t, plane::sides(&t, &s))
 }
 
 /// The same, when `sides[i] = orient3d(t[0], t[1], t[2], s[i])` is known.

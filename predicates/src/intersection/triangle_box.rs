@@ -95,13 +95,13 @@ pub fn triangle_intersects_box(t: [impl Point<3>; 3], min: impl Point<3>, max: i
 }
 
 fn meets(t: &[P3; 3], min: &P3, max: &P3) -> bool {
-    if !all_finite(t) || !all_finite(&[*min, *max]) || (0..3).any(|k| min[k] > max[k]) {
-        return false;
-    }
     for k in 0..3 {
-        if t.iter().all(|p| p[k] < min[k]) || t.iter().all(|p| p[k] > max[k]) {
+        if t.iter().all(|p| p[k] < min[k]) || t.iter().all(|p| p[k] > max[k]) || min[k] > max[k] {
             return false;
         }
+    }
+    if !all_finite(t) || !all_finite(&[*min, *max]) {
+        return false;
     }
     if t.iter().any(|p| contains(p, min, max)) {
         return true;

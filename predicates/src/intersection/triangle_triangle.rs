@@ -15,6 +15,7 @@
 //! set, each of which lies on an edge of one of the triangles, by six segment-triangle questions.
 
 use super::hull::{Hull3, all_finite, boxes_disjoint};
+use super::plane;
 use super::segment_triangle::with_sides;
 use super::{Contact, P3, SegmentTriangle, TriangleFeature};
 use crate::finite::check_finite;
@@ -143,16 +144,14 @@ pub fn try_triangle_triangle(
 }
 
 /// The sides of the vertices of `a` to the plane of `b`; `None` when all are strictly on one.
-#[inline]
+#[inline(always)]
 fn sides(a: &[P3; 3], b: &[P3; 3]) -> Option<[Sign; 3]> {
-    let s0 = orient3d(b[0], b[1], b[2], a[0]);
-    let s1 = orient3d(b[0], b[1], b[2], a[1]);
-    let s2 = orient3d(b[0], b[1], b[2], a[2]);
-    if s0 == s1 && s0 == s2 && !s0.is_zero() { None } else { Some([s0, s1, s2]) }
+    let sides = plane::sides(b, a);
+    if sides == [Sign::Positive; 3] || sides == [Sign::Negative; 3] { None } else { Some(sides) }
 }
 
 fn fast(a: &[P3; 3], b: &[P3; 3]) -> bool {
-    if boxes_disjoint(a, b) || !all_finite(a) || !all_finite(b) {
+    if boxes_disjoint(a, b) {
         return false;
     }
     let Some(of_a) = sides(a, b) else { return false };
@@ -163,7 +162,7 @@ fn fast(a: &[P3; 3], b: &[P3; 3]) -> bool {
     if of_b == [Sign::Zero; 3] {
         return case(*a, *b) != TriangleTriangle::Disjoint;
     }
-    // Both are proper, in different planes, and each meets the plane of the other.
+    // Both are proper, in different planes, and each meets the plane of the other, if they are finite.
     let (i, side_a) = lone_vertex(of_a);
     let (j, side_b) = lone_vertex(of_b);
     let [p, mut q, mut r] = [a[i], a[(i + 1) % 3], a[(i + 2) % 3]];
@@ -176,7 +175,10 @@ fn fast(a: &[P3; 3], b: &[P3; 3]) -> bool {
     }
     // Now `p` sees `u`, `v`, `w` as positive and `u` sees `p`, `q`, `r` so. On the common line the first triangle
     // covers the interval from edge pq to edge pr, the second that from uw to uv.
-    orient3d(p, q, u, v) != Sign::Positive && orient3d(p, r, u, w) != Sign::Negative
+    orient3d(p, q, u, v) != Sign::Positive
+        && orient3d(p, r, u, w) != Sign::Negative
+        && all_finite(a)
+        && all_finite(b)
 }
 
 /// The vertex that is alone on its side of a plane that the triangle meets but does not lie in, and that side.
