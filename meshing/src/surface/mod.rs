@@ -13,6 +13,7 @@ mod duplicates;
 mod edges;
 mod ids;
 mod list;
+pub mod measure;
 mod soup;
 mod topology;
 mod tri_mesh;
