@@ -1,4 +1,12 @@
 //! Integration tests: meshing.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test reports by panic and print"
+)]
+
 mod io;
 mod shapes;
 mod spatial;

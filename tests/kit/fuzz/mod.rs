@@ -4,14 +4,31 @@
 //! the inputs stored in `tests/kit/corpus/<body>/`, which holds what a fuzzer once found and seeds worth starting from.
 
 mod determinants;
+mod intersections;
+mod meshes;
+mod perturbation;
 
 pub use determinants::{in_spheres, orientations};
+pub use intersections::{boxes, simplices};
+pub use meshes::{read_obj, read_off, read_ply, read_stl, self_intersecting};
+pub use perturbation::perturbed;
 
 /// A fuzz body: takes any bytes, panics if something is wrong.
 pub type Body = fn(&[u8]);
 
 /// Every body with its name, which is also the name of its fuzz target and of its corpus folder.
-pub const BODIES: &[(&str, Body)] = &[("in_spheres", in_spheres), ("orientations", orientations)];
+pub const BODIES: &[(&str, Body)] = &[
+    ("boxes", boxes),
+    ("in_spheres", in_spheres),
+    ("orientations", orientations),
+    ("perturbed", perturbed),
+    ("read_obj", read_obj),
+    ("read_off", read_off),
+    ("read_ply", read_ply),
+    ("read_stl", read_stl),
+    ("self_intersecting", self_intersecting),
+    ("simplices", simplices),
+];
 
 #[cfg(test)]
 mod tests {
@@ -20,7 +37,7 @@ mod tests {
     use std::{fs, path::Path};
 
     /// Runs on the fixed stream for each body.
-    const RUNS: u64 = 3000;
+    const RUNS: u64 = 1200;
 
     #[test]
     fn bodies_hold_on_a_fixed_stream() {

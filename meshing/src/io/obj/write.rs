@@ -9,6 +9,10 @@ pub(in super::super) fn write<S: SurfaceData + ?Sized>(
     output: &mut impl Write,
     surface: &S,
 ) -> Result<WriteReport, WriteError> {
+    if surface.positions().is_empty() {
+        // An empty file would be refused as such when read.
+        writeln!(output, "# no vertices")?;
+    }
     for p in surface.positions() {
         writeln!(output, "v {} {} {}", Decimal(p.x), Decimal(p.y), Decimal(p.z))?;
     }
