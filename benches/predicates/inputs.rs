@@ -4,6 +4,8 @@
 //! * nearly degenerate: points on a random line, plane, hyperplane, circle or sphere, rounded to `f64`, then
 //!   moved by up to 3 ulp in each coordinate.
 //! * degenerate grid: points of an integer grid that are exactly collinear, coplanar, cocircular, cospherical.
+//! * degenerate mixed: corners of one box about the origin (cocircular, cospherical) or of one face of it
+//!   (coplanar), points on one line through the origin; exponents as in mixed.
 //! * mixed exponents: random sign, mantissa and, for each coordinate its own, binary exponent.
 
 /// SplitMix64.
@@ -57,13 +59,15 @@ pub(crate) enum Class {
     NearlyDegenerate,
     Grid,
     Mixed { exponents: i64 },
+    DegenerateMixed { exponents: i64 },
 }
 
 impl Class {
-    pub(crate) const ALL: [Self; 5] = [
+    pub(crate) const ALL: [Self; 6] = [
         Self::Uniform,
         Self::NearlyDegenerate,
         Self::Grid,
+        Self::DegenerateMixed { exponents: 60 },
         Self::Mixed { exponents: 60 },
         Self::Mixed { exponents: 1000 },
     ];
@@ -74,6 +78,7 @@ impl Class {
             Self::NearlyDegenerate => "nearly degenerate",
             Self::Grid => "degenerate grid",
             Self::Mixed { exponents: 60 } => "mixed 2^+-60",
+            Self::DegenerateMixed { .. } => "degenerate 2^+-60",
             Self::Mixed { .. } => "mixed 2^+-1000",
         }
     }
@@ -94,6 +99,9 @@ pub(crate) fn tuples<const N: usize, const P: usize>(
             (Class::NearlyDegenerate, Surface::Round) => near_round(&mut random),
             (Class::Grid, Surface::Flat) => grid_flat(&mut random),
             (Class::Grid, Surface::Round) => grid_round(&mut random, &spheres),
+            (Class::DegenerateMixed { exponents }, surface) => {
+                degenerate_mixed(&mut random, surface, exponents)
+            }
             (Class::Mixed { exponents }, _) => {
                 std::array::from_fn(|_| std::array::from_fn(|_| random.mixed(exponents)))
             }
@@ -154,6 +162,24 @@ fn grid_round<const N: usize, const P: usize>(
     std::array::from_fn(|_| {
         let point = sphere[random.integer(0, sphere.len() as i64 - 1) as usize];
         std::array::from_fn(|j| (origin[j] + point[j]) as f64)
+    })
+}
+
+fn degenerate_mixed<const N: usize, const P: usize>(
+    random: &mut Random,
+    surface: Surface,
+    exponents: i64,
+) -> [[f64; N]; P] {
+    let corner: [f64; N] = std::array::from_fn(|_| random.mixed(exponents));
+    std::array::from_fn(|_| {
+        let scale = 2f64.powi(random.integer(-20, 20) as i32);
+        std::array::from_fn(|j| match (surface, N) {
+            (Surface::Flat, 2) => scale * corner[j],
+            (Surface::Flat, _) if j == 0 => corner[0],
+            (Surface::Flat, _) => random.mixed(exponents),
+            (Surface::Round, _) if random.bits() & 1 == 0 => corner[j],
+            (Surface::Round, _) => -corner[j],
+        })
     })
 }
 

@@ -163,7 +163,11 @@ fn run<const N: usize, const P: usize>(filter: &str, rounds: usize, family: &Fam
         }
         let inputs = tuples::<N, P>(class, family.surface, COUNT);
         // Slow classes need fewer inputs to last long enough.
-        let timed = if matches!(class, Class::Mixed { .. }) { &inputs[..COUNT / 8] } else { &inputs[..] };
+        let timed = if matches!(class, Class::Mixed { .. } | Class::DegenerateMixed { .. }) {
+            &inputs[..COUNT / 8]
+        } else {
+            &inputs[..]
+        };
         let passes = [Some(family.ours), family.robust, family.geometry_predicates];
         let mut times: [Vec<f64>; 3] = Default::default();
         for round in 0..=rounds {

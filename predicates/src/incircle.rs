@@ -10,15 +10,17 @@
 //!
 //! For `a`, `b`, `c` on one line the circle is that line, and the two signs tell its sides apart.
 
+use crate::arithmetic::double_double;
 use crate::polynomial::{self, Ring, Rounded};
 use crate::stage::{Predicate, Stage, settle};
 use crate::{NonFinite, Point, Sign, filter, finite, stats};
 
-struct Incircle;
+pub(crate) struct Incircle;
 
 impl Predicate<2, 4, 3> for Incircle {
     const KIND: stats::Kind = stats::Kind::Incircle;
     const DEGREE: i32 = 4;
+    const DOUBLE_DOUBLE_ERROR: f64 = double_double::INCIRCLE;
 
     #[inline(always)]
     fn polynomial<K: Ring>(rows: &[[K::D1; 2]; 3]) -> K::Outcome {

@@ -8,15 +8,17 @@
 //!         - b -               for orient3d(a, b, c, d) < 0 the signs are opposite
 //! ```
 
+use crate::arithmetic::double_double;
 use crate::polynomial::{self, Ring, Rounded};
 use crate::stage::{Predicate, Stage, settle};
 use crate::{NonFinite, Point, Sign, filter, finite, stats};
 
-struct Insphere;
+pub(crate) struct Insphere;
 
 impl Predicate<3, 5, 4> for Insphere {
     const KIND: stats::Kind = stats::Kind::Insphere;
     const DEGREE: i32 = 5;
+    const DOUBLE_DOUBLE_ERROR: f64 = double_double::INSPHERE;
 
     #[inline(always)]
     fn polynomial<K: Ring>(rows: &[[K::D1; 3]; 4]) -> K::Outcome {

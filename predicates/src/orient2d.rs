@@ -7,15 +7,17 @@
 //!      a --> b
 //! ```
 
+use crate::arithmetic::double_double;
 use crate::polynomial::{self, Ring, Rounded};
 use crate::stage::{Predicate, Stage, settle};
 use crate::{NonFinite, Point, Sign, filter, finite, stats};
 
-struct Orient2d;
+pub(crate) struct Orient2d;
 
 impl Predicate<2, 3, 2> for Orient2d {
     const KIND: stats::Kind = stats::Kind::Orient2d;
     const DEGREE: i32 = 2;
+    const DOUBLE_DOUBLE_ERROR: f64 = double_double::ORIENT2D;
 
     #[inline(always)]
     fn polynomial<K: Ring>(rows: &[[K::D1; 2]; 2]) -> K::Outcome {

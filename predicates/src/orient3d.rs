@@ -11,15 +11,17 @@
 //!
 //! The sign of the determinant with rows `a - d`, `b - d`, `c - d`, the convention of [Shewchuk97].
 
+use crate::arithmetic::double_double;
 use crate::polynomial::{self, Ring, Rounded};
 use crate::stage::{Predicate, Stage, settle};
 use crate::{NonFinite, Point, Sign, filter, finite, stats};
 
-struct Orient3d;
+pub(crate) struct Orient3d;
 
 impl Predicate<3, 4, 3> for Orient3d {
     const KIND: stats::Kind = stats::Kind::Orient3d;
     const DEGREE: i32 = 3;
+    const DOUBLE_DOUBLE_ERROR: f64 = double_double::ORIENT3D;
 
     #[inline(always)]
     fn polynomial<K: Ring>(rows: &[[K::D1; 3]; 3]) -> K::Outcome {

@@ -12,15 +12,17 @@
 //!
 //! With time as the fourth coordinate it is the orientation of events in space-time.
 
+use crate::arithmetic::double_double;
 use crate::polynomial::{self, Ring, Rounded};
 use crate::stage::{Predicate, Stage, settle};
 use crate::{NonFinite, Point, Sign, filter, finite, stats};
 
-struct Orient4d;
+pub(crate) struct Orient4d;
 
 impl Predicate<4, 5, 4> for Orient4d {
     const KIND: stats::Kind = stats::Kind::Orient4d;
     const DEGREE: i32 = 4;
+    const DOUBLE_DOUBLE_ERROR: f64 = double_double::ORIENT4D;
 
     #[inline(always)]
     fn polynomial<K: Ring>(rows: &[[K::D1; 4]; 4]) -> K::Outcome {

@@ -1,5 +1,7 @@
 //! The stages of an evaluation: [`Stage`], and the ladder that every predicate climbs.
 
+use crate::arithmetic::double_double::{self, DoubleDoubles, Magnitude, Magnitudes, Scale};
+use crate::arithmetic::expansion::{self, Expansion, Expansions};
 use crate::arithmetic::fixed_point;
 use crate::arithmetic::lattice::{Lattice, Words};
 use crate::arithmetic::scaled::Exact;
@@ -14,6 +16,10 @@ pub enum Stage {
     Filter,
     /// Integers of a few machine words: all bits of all coordinates lie within 61 binary places.
     Lattice,
+    /// Double-double arithmetic, about 106 bits: the determinant is larger than its error bound.
+    DoubleDouble,
+    /// Expansions, exact: sums of `f64` that do not overlap.
+    Expansion,
     /// Integers of up to 2100 bits per coordinate: no exponent range to leave.
     Integer,
     /// None: a coordinate was infinite or not a number, and the sign is [`Sign::Zero`].
@@ -22,7 +28,8 @@ pub enum Stage {
 
 impl Stage {
     /// All stages, in the order in which they are tried.
-    pub const ALL: [Self; 4] = [Self::Filter, Self::Lattice, Self::Integer, Self::NonFinite];
+    pub const ALL: [Self; 6] =
+        [Self::Filter, Self::Lattice, Self::DoubleDouble, Self::Expansion, Self::Integer, Self::NonFinite];
 }
 
 /// A predicate: `P` points of `N` coordinates, reduced to `R = P - 1` rows of differences to the last point.
@@ -31,6 +38,8 @@ pub(crate) trait Predicate<const N: usize, const P: usize, const R: usize> {
     const KIND: stats::Kind;
     /// Degree of the polynomial in the differences.
     const DEGREE: i32;
+    /// Error coefficient of the polynomial in double-double arithmetic.
+    const DOUBLE_DOUBLE_ERROR: f64;
     /// The polynomial.
     fn polynomial<K: Ring>(rows: &[[K::D1; N]; R]) -> K::Outcome;
     /// The polynomial in rounded arithmetic and a bound of its error that is not finite when the polynomial overflows.
@@ -104,17 +113,77 @@ where
     Q: Predicate<N, P, R>,
     A: Answer,
 {
-    if !points.as_flattened().iter().all(|x| x.is_finite()) {
-        stats::count(Q::KIND, Stage::NonFinite);
-        return (A::ZERO, Stage::NonFinite);
+    let (answer, stage) = if let Some(answer) = by_lattice::<Q, A, N, P, R>(points) {
+        (answer, Stage::Lattice)
+    } else if !points.as_flattened().iter().all(|x| x.is_finite()) {
+        (A::ZERO, Stage::NonFinite)
+    } else if let Some(answer) = by_double_double::<Q, A, N, P, R>(points) {
+        (answer, Stage::DoubleDouble)
+    } else if let Some(answer) = by_expansion::<Q, A, N, P, R>(points) {
+        (answer, Stage::Expansion)
+    } else {
+        (by_integer::<Q, A, N, P, R>(points), Stage::Integer)
+    };
+    stats::count(Q::KIND, stage);
+    (answer, stage)
+}
+
+/// Exact in machine words, for coordinates of one lattice.
+#[inline(always)]
+fn by_lattice<Q, A, const N: usize, const P: usize, const R: usize>(points: &[[f64; N]; P]) -> Option<A>
+where
+    Q: Predicate<N, P, R>,
+    A: Answer,
+{
+    let lattice = Lattice::of(points)?;
+    let value = Q::polynomial::<Words>(&lattice.rows());
+    Some(A::of_exact(&value, Q::DEGREE * lattice.exponent))
+}
+
+/// In double-double arithmetic, for values above their error bound.
+#[inline(never)]
+fn by_double_double<Q, A, const N: usize, const P: usize, const R: usize>(points: &[[f64; N]; P]) -> Option<A>
+where
+    Q: Predicate<N, P, R>,
+    A: Answer,
+{
+    let scale = Scale::of(points, Q::DEGREE);
+    let rows = double_double::differences(&scale.apply(points));
+    let value = Q::polynomial::<DoubleDoubles>(&rows);
+    let magnitudes = rows.map(|row| row.map(|d| Magnitude(d.high.abs())));
+    let magnitude = Q::polynomial::<Magnitudes>(&magnitudes).0;
+    let error = double_double::error_bound(Q::DOUBLE_DOUBLE_ERROR, magnitude, Q::DEGREE);
+    (value.high.abs() > error).then(|| A::of_exact(&value, -Q::DEGREE * scale.exponent))
+}
+
+/// Exact in expansions, for coordinates whose products stay in the range of `f64`.
+#[inline(never)]
+fn by_expansion<Q, A, const N: usize, const P: usize, const R: usize>(points: &[[f64; N]; P]) -> Option<A>
+where
+    Q: Predicate<N, P, R>,
+    A: Answer,
+{
+    let scale = Scale::of(points, Q::DEGREE);
+    if !expansion::in_range(points, scale.exponent, Q::DEGREE) {
+        return None;
     }
-    if let Some(lattice) = Lattice::of(points) {
-        let value = Q::polynomial::<Words>(&lattice.rows());
-        stats::count(Q::KIND, Stage::Lattice);
-        return (A::of_exact(&value, Q::DEGREE * lattice.exponent), Stage::Lattice);
-    }
+    let scaled = scale.apply(points);
+    let row = |i: usize| core::array::from_fn(|j| Expansion::of_difference(scaled[i][j], scaled[P - 1][j]));
+    let value = Q::polynomial::<Expansions>(&core::array::from_fn(row));
+    (!value.is_overfull()).then(|| A::of_exact(&value, -Q::DEGREE * scale.exponent))
+}
+
+/// Exact in integers of any size that finite coordinates can need.
+#[inline(never)]
+fn by_integer<Q, A, const N: usize, const P: usize, const R: usize>(points: &[[f64; N]; P]) -> A
+where
+    Q: Predicate<N, P, R>,
+    A: Answer,
+{
     let (unit, rows) = fixed_point::differences(points);
     let value = Q::polynomial::<fixed_point::Integers>(&rows);
-    stats::count(Q::KIND, Stage::Integer);
-    (A::of_exact(&value, Q::DEGREE * unit), Stage::Integer)
+    A::of_exact(&value, Q::DEGREE * unit)
 }
+
+#[cfg(test)]
+mod tests;

@@ -21,6 +21,8 @@ const GUARD: u32 = WINDOW - f64::MANTISSA_DIGITS;
 
 const SIGN_BIT: u64 = 1 << 63;
 const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
+/// Biased exponent of infinities and NaN.
+const NOT_FINITE: u64 = 0x7ff;
 const FRACTION: u64 = (1 << FRACTION_BITS) - 1;
 
 /// The coordinates in a common unit `2^exponent`.
@@ -30,7 +32,7 @@ pub(crate) struct Lattice<const N: usize, const P: usize> {
 }
 
 impl<const N: usize, const P: usize> Lattice<N, P> {
-    /// The lattice of `points`, all finite; `None` if their bits do not lie within the window.
+    /// The lattice of `points`; `None` if their bits do not lie within the window or one is not finite.
     #[inline(always)]
     pub(crate) fn of(points: &[[f64; N]; P]) -> Option<Self> {
         let mut largest = 0;
@@ -54,7 +56,7 @@ impl<const N: usize, const P: usize> Lattice<N, P> {
             })
         });
         let exponent = top as i32 - 1 + f64::MIN_EXP - f64::MANTISSA_DIGITS as i32 - GUARD as i32;
-        (lost == 0).then_some(Self { exponent, points })
+        (lost == 0 && top < NOT_FINITE).then_some(Self { exponent, points })
     }
 
     /// Differences of the first points to the last one.
@@ -210,6 +212,8 @@ mod tests {
         assert_eq!(lattice.points, [[1 << 59, -3 << 59], [1, 0]]);
         assert!(Lattice::of(&[[1.0, -3.0], [power_of_two(-60), 0.0]]).is_none());
         assert!(Lattice::of(&[[f64::MAX], [f64::from_bits(1)]]).is_none());
+        assert!(Lattice::of(&[[f64::INFINITY], [1.0]]).is_none());
+        assert!(Lattice::of(&[[f64::NAN, f64::MAX]]).is_none());
     }
 
     #[test]

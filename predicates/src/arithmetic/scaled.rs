@@ -39,6 +39,16 @@ impl Scaled {
         }
     }
 
+    /// A finite number.
+    pub(crate) fn of_f64(value: f64) -> Self {
+        let bits = value.to_bits();
+        let biased = ((bits >> 52) & 0x7ff) as i32;
+        let fraction = (bits & ((1 << 52) - 1)) as i64;
+        let magnitude = if biased == 0 { fraction } else { fraction | 1 << 52 };
+        let mantissa = if value < 0.0 { -magnitude } else { magnitude };
+        Self { mantissa, exponent: biased.max(1) - 1075 }
+    }
+
     /// The number whose magnitude has the leading words `high`, not zero, and `low`, the latter in units of
     /// `2^exponent`.
     pub(crate) fn of_words(negative: bool, high: u64, low: u64, exponent: i32) -> Self {
