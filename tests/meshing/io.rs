@@ -1,6 +1,11 @@
 //! Tests of `welter_meshing::io`: round trips bit for bit, malformed input with its place, truncation and corruption at
 //! every byte, real files.
 
+mod accepted;
+mod malformed;
+mod peer;
+mod polygons;
+
 use proptest::prelude::*;
 use welter_meshing::DVec3;
 use welter_meshing::io::{

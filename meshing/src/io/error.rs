@@ -198,7 +198,7 @@ pub enum WriteError {
 }
 
 /// Longest excerpt of a file shown in a message, in bytes: enough for any number or keyword.
-const SHOWN: usize = 40;
+pub(super) const SHOWN: usize = 40;
 
 /// Bytes of a file as a message shows them: quoted, escaped, shortened.
 pub(super) fn shown(bytes: &[u8]) -> String {

@@ -4,7 +4,7 @@
 //! [`CHUNK`] bytes and grows only for a longer line, up to [`MAX_LINE`]; an interrupted read is tried again.
 //! Does not promise: decoding; lines are bytes, ended by `\n`, `\r\n` or `\r`.
 
-use super::error::{Place, ReadError, shown};
+use super::error::{Place, ReadError, SHOWN, shown};
 use std::io::{ErrorKind, Read};
 
 /// Size of the buffer: large enough that the cost of a read vanishes, small enough to stay in the second-level cache.
@@ -221,10 +221,11 @@ impl<R: Read> Source<R> {
             }
             let blank = ahead.iter().take_while(|b| b.is_ascii_whitespace() || **b == 0).count();
             let surplus = blank < ahead.len();
-            let found = shown(&ahead[blank..]);
             self.consume(blank);
             if surplus {
-                return Err(ReadError::TrailingData { at: self.byte(), after: after(), found });
+                let at = self.byte();
+                let found = shown(self.fill(SHOWN + 1)?);
+                return Err(ReadError::TrailingData { at, after: after(), found });
             }
         }
     }

@@ -62,7 +62,7 @@ enum Encoding {
     Binary,
 }
 
-/// Text begins with `solid`, and has no control characters or speaks of facets and vertices.
+/// Text begins with `solid`, and has no control characters, or speaks of facets where a binary file has its triangles.
 fn probe(head: &[u8]) -> Result<Encoding, ReadError> {
     const EXPECTED: &str = "STL (`solid` and text, or binary)";
     let encoding = |found| Err(ReadError::Encoding { found, expected: EXPECTED });
@@ -80,8 +80,9 @@ fn probe(head: &[u8]) -> Result<Encoding, ReadError> {
     let plain = |b: &u8| b.is_ascii_whitespace() || *b == 0x0b || (*b >= 0x20 && *b != 0x7f);
     let text = head.iter().all(plain);
     if lower.starts_with(b"solid") {
-        let has = |word: &[u8]| lower.windows(word.len()).any(|w| w == word);
-        let facets = has(b"facet") && has(b"vertex");
+        let body = lower.get(HEADER..).unwrap_or_default();
+        let has = |word: &[u8]| body.windows(word.len()).any(|w| w == word);
+        let facets = has(b"facet") || has(b"vertex") || has(b"endsolid");
         return Ok(if text || facets { Encoding::Text } else { Encoding::Binary });
     }
     if lower.is_empty() {
