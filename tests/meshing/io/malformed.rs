@@ -626,9 +626,10 @@ fn what_cannot_be_written_is_refused_before_the_first_byte() {
     let mut bad = good.clone();
     bad.triangle_colors.pop();
     assert!(refused(&bad).iter().all(|e| matches!(e, WriteError::Colors { colors: 1, triangles: 2 })));
-    for groups in [vec![0..3], vec![1..2, 0..1], vec![1..1, 0..2]] {
+    for groups in [&[(0, 3)][..], &[(1, 2), (0, 1)], &[(1, 1), (0, 2)]] {
         let mut bad = good.clone();
-        bad.groups = groups.into_iter().map(|triangles| Group { name: "g".to_owned(), triangles }).collect();
+        bad.groups =
+            groups.iter().map(|&(from, to)| Group { name: "g".to_owned(), triangles: from..to }).collect();
         assert!(refused(&bad).iter().all(|e| matches!(e, WriteError::Group { .. })));
     }
     let mut bad = good;
