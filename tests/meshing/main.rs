@@ -1,4 +1,4 @@
-//! Integration tests: meshing.
+//! Integration tests of `welter_meshing`.
 
 #![allow(
     clippy::unwrap_used,

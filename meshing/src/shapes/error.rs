@@ -7,9 +7,12 @@ use thiserror::Error;
 /// Most triangles a generator makes: about 2.4 GB of positions and indices.
 pub const MAX_SHAPE_TRIANGLES: u32 = 1 << 26;
 
-/// Lengths and coordinates of parameters lie between this and its reciprocal (or are zero, where that has a
-/// meaning), so that squares and cubes of them neither overflow nor vanish. A larger surface is a scaled copy.
+/// Longest length and largest coordinate of a parameter: squares and cubes of it do not overflow. A larger surface is
+/// a scaled copy.
 pub const MAX_LENGTH: f64 = 1e75;
+
+/// Shortest length of a parameter: squares and cubes of it do not vanish.
+pub const MIN_LENGTH: f64 = 1e-75;
 
 /// Why a generator refuses its parameters.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -61,7 +64,7 @@ pub(crate) fn require(
 
 /// Refuses what is not a positive length.
 pub(crate) fn require_length(parameter: &'static str, value: f64) -> Result<(), ShapeError> {
-    let holds = (MAX_LENGTH.recip()..=MAX_LENGTH).contains(&value);
+    let holds = (MIN_LENGTH..=MAX_LENGTH).contains(&value);
     require(holds, parameter, value, "a length between 1e-75 and 1e75")
 }
 

@@ -38,7 +38,7 @@ mod tubes;
 pub use boxes::{Box_, BoxPair, box_, coincident_boxes, nested_boxes, two_boxes};
 pub use by_name::{NAMES, NamedShape, by_name};
 pub use dumbbell::{Dumbbell, dumbbell};
-pub use error::{MAX_LENGTH, MAX_SHAPE_TRIANGLES, ShapeError};
+pub use error::{MAX_LENGTH, MAX_SHAPE_TRIANGLES, MIN_LENGTH, ShapeError};
 pub use moebius::{Moebius, double_moebius, moebius};
 pub use sphere::{Sphere, sphere};
 pub use sweep::{Sweep, sweep};
