@@ -90,14 +90,6 @@ impl Carrier {
         if forward { s < t } else { s > t }
     }
 
-    /// True when a projection has shrunk the carrier to a point.
-    pub(super) fn is_point(&self) -> bool {
-        match self.heading {
-            Heading::Through(q) => q == self.start,
-            Heading::Vector(d) => d == [0.0; 2],
-        }
-    }
-
     /// True when this ray meets the segment from `p` to `q`, which is not collinear with it.
     pub(super) fn ray_meets_segment(&self, [p, q]: [P2; 2]) -> bool {
         let sides = [self.side(p), self.side(q)];

@@ -263,12 +263,13 @@ impl Ray {
         for axis in 0..3 {
             let ray = self.projected(axis);
             let (p2, q2) = (project(p, axis), project(q, axis));
-            let skew = !ray.side(p2).is_zero() || !ray.side(q2).is_zero();
-            if skew && !ray.is_point() {
+            // A projection along the ray sees it as a point, with all sides zero.
+            if !ray.side(p2).is_zero() || !ray.side(q2).is_zero() {
                 return ray.ray_meets_segment([p2, q2]);
             }
         }
-        self.contains(p) || self.contains(q) || super::hull::between(self.origin, p, q)
+        // Collinear: a segment that holds the origin has an end ahead of it.
+        self.contains(p) || self.contains(q)
     }
 }
 

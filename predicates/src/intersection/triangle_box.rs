@@ -132,10 +132,13 @@ fn edge_separates(t: &[P3; 3], orientation: Sign, min: &P3, max: &P3, axis: usiz
         let (u, v) = (t[i], t[(i + 1) % 3]);
         // The left normal of the edge.
         let left = [Sign::of_difference(u[1], v[1]), Sign::of_difference(v[0], u[0])];
-        // The triangle lies on the left unless the orientation is negative, on the right unless it is positive.
-        (orientation != Sign::Negative && orient2d(u, v, corner(left, &min, &max)) == Sign::Negative)
-            || (orientation != Sign::Positive
-                && orient2d(u, v, corner(left.map(|s| -s), &min, &max)) == Sign::Positive)
+        // The triangle lies on the left or on the right. If it is seen edge-on, its edges run both ways along one
+        // line, so that testing the left of each tests both sides.
+        if orientation == Sign::Negative {
+            orient2d(u, v, corner(left.map(|s| -s), &min, &max)) == Sign::Positive
+        } else {
+            orient2d(u, v, corner(left, &min, &max)) == Sign::Negative
+        }
     })
 }
 

@@ -162,7 +162,8 @@ fn fast(a: &[P3; 3], b: &[P3; 3]) -> bool {
     if of_b == [Sign::Zero; 3] {
         return case(*a, *b) != TriangleTriangle::Disjoint;
     }
-    // Both are proper, in different planes, and each meets the plane of the other, if they are finite.
+    // Both are proper, in different planes, and each meets the plane of the other. They are finite, too: to the
+    // plane of a triangle that is not, every side is zero.
     let (i, side_a) = lone_vertex(of_a);
     let (j, side_b) = lone_vertex(of_b);
     let [p, mut q, mut r] = [a[i], a[(i + 1) % 3], a[(i + 2) % 3]];
@@ -175,10 +176,7 @@ fn fast(a: &[P3; 3], b: &[P3; 3]) -> bool {
     }
     // Now `p` sees `u`, `v`, `w` as positive and `u` sees `p`, `q`, `r` so. On the common line the first triangle
     // covers the interval from edge pq to edge pr, the second that from uw to uv.
-    orient3d(p, q, u, v) != Sign::Positive
-        && orient3d(p, r, u, w) != Sign::Negative
-        && all_finite(a)
-        && all_finite(b)
+    orient3d(p, q, u, v) != Sign::Positive && orient3d(p, r, u, w) != Sign::Negative
 }
 
 /// The vertex that is alone on its side of a plane that the triangle meets but does not lie in, and that side.

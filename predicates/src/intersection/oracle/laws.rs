@@ -255,6 +255,32 @@ fn non_finite_coordinates_are_disjoint_or_an_error() {
     }
 }
 
+/// Whatever the other coordinates are, one that is not finite makes the operands disjoint.
+#[test]
+fn no_case_comes_of_a_coordinate_that_is_not_finite() {
+    let mut random = Sequence(16);
+    for round in 0..20000 {
+        let mut points: [[f64; 3]; 6] = random.points(1 + round % 2);
+        let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][random.next() as usize % 3];
+        let at = random.next() as usize;
+        points[at % 3][at / 3 % 3] = bad;
+        let [a, b, c, d, e, f] = points;
+        assert!(!triangles_intersect([a, b, c], [d, e, f]), "{points:?}");
+        assert!(!triangles_intersect([d, e, f], [a, b, c]), "{points:?}");
+        assert_eq!(triangle_triangle([a, b, c], [d, e, f]), TriangleTriangle::Disjoint);
+        assert!(!segment_intersects_triangle([d, e], [a, b, c]));
+        assert!(!segments_intersect_3d([points[at % 3], d], [e, f]));
+        assert!(!ray_intersects_triangle(points[at % 3], d, [d, e, f]));
+        assert_eq!(ray_triangle_direction(d, points[at % 3], [d, e, f]), RayTriangle::Disjoint);
+        assert_eq!(ray_triangle_axis(d, at % 3, at % 2 == 0, [a, b, c]), RayTriangle::Disjoint);
+        assert!(!triangle_intersects_box([a, b, c], [-2.0; 3], [2.0; 3]));
+        assert!(!triangle_intersects_box([d, e, f], [-2.0; 3], points[at % 3]));
+        assert!(!segment_intersects_box([points[at % 3], d], [-2.0; 3], [2.0; 3]));
+        assert!(!triangle_contains_3d([a, b, c], d));
+        assert!(!tetrahedron_contains([a, b, c, d], e));
+    }
+}
+
 /// Single precision lifts: the same case as its double.
 #[test]
 fn single_precision_is_accepted() {
