@@ -82,9 +82,9 @@ mod tests {
 
     /// A number of any magnitude up to 2^1000, or in [1, 2) up to sign.
     fn number(random: &mut Sequence, wide: bool) -> f64 {
-        let bits = random.next() << 31 ^ random.next();
-        let mantissa = f64::from_bits(1023 << 52 | bits % (1 << 52));
-        let sign = if random.next() % 2 == 0 { 1.0 } else { -1.0 };
+        let bits = (random.next() << 31) ^ random.next();
+        let mantissa = f64::from_bits((1023 << 52) | (bits % (1 << 52)));
+        let sign = if random.next().is_multiple_of(2) { 1.0 } else { -1.0 };
         let exponent = if wide { (random.next() % 2001) as i32 - 1000 } else { 0 };
         sign * mantissa * f64::from_bits(((1023 + exponent) as u64) << 52)
     }
