@@ -6,6 +6,7 @@
 //! `(x, y, z)` in axes (right, up, toward the eye) needs `|x - cx| <= tx (D - z)`; the best shift `cx` balances the
 //! largest `z + x/tx` and `z - x/tx`, and the same in y.
 
+use super::caption::Layout;
 use super::model::Model;
 use super::scene::{Camera, RenderError, Scene, Up};
 use glam::{DVec2, DVec3};
@@ -17,6 +18,8 @@ const FIELD_OF_VIEW: f64 = 30.0;
 const THREE_QUARTER: (f64, f64) = (32.0, 24.0);
 /// Share of the frame that the fitted scene fills.
 const FILL: f64 = 0.86;
+/// Share of the height of a caption that the fitted scene keeps clear: a corner of the frame is seldom filled.
+const CLEARANCE: f64 = 0.6;
 /// Extent along z below this share of that along y: the thing lies flat, so z is up.
 const FLAT: f64 = 0.6;
 /// Horizontal second moments nearer than this ratio: no axis is long, so the coordinate axes are kept.
@@ -35,6 +38,8 @@ pub(super) struct View {
     pub(super) focal: f64,
     /// Picture size in pixels.
     pub(super) size: DVec2,
+    /// Where the axis of view meets the picture, in pixels: above the middle if there is a caption.
+    pub(super) middle: DVec2,
 }
 
 impl View {
@@ -52,20 +57,21 @@ impl View {
     #[inline]
     pub(super) fn project(&self, p: DVec3) -> DVec2 {
         let s = self.focal / -p.z;
-        DVec2::new(0.5 * self.size.x + p.x * s, 0.5 * self.size.y - p.y * s)
+        DVec2::new(self.middle.x + p.x * s, self.middle.y - p.y * s)
     }
 
     /// The direction with z = -1 through a point of the picture, in pixels.
     #[inline]
     pub(super) fn ray(&self, x: f64, y: f64) -> DVec3 {
-        DVec3::new((x - 0.5 * self.size.x) / self.focal, (0.5 * self.size.y - y) / self.focal, -1.0)
+        DVec3::new((x - self.middle.x) / self.focal, (self.middle.y - y) / self.focal, -1.0)
     }
 
     /// The view that a scene asks for.
     pub(super) fn of(scene: &Scene<'_>, model: &Model) -> Result<Self, RenderError> {
         let size = DVec2::new(f64::from(scene.size[0]), f64::from(scene.size[1]));
-        let slope = libm::tan((0.5 * FIELD_OF_VIEW).to_radians());
-        let focal = 0.5 * size.min_element() / slope;
+        let taken = Layout::of(&scene.caption, scene.size).map_or(0.0, |l| CLEARANCE * f64::from(l.height()));
+        let middle = DVec2::new(0.5 * size.x, 0.5 * (size.y - taken));
+        let focal = 0.5 * size.min_element() / libm::tan((0.5 * FIELD_OF_VIEW).to_radians());
         let up_axis = match scene.up {
             Up::Y => DVec3::Y,
             Up::Z => DVec3::Z,
@@ -105,7 +111,7 @@ impl View {
         let toward = away * ce + up_axis * se;
         let right = side * ca - front * sa;
         let above = toward.cross(right);
-        let mut view = Self { eye: DVec3::ZERO, right, above, toward, up: DVec3::ZERO, focal, size };
+        let mut view = Self { eye: DVec3::ZERO, right, above, toward, up: DVec3::ZERO, focal, size, middle };
         view.up = view.turn(up_axis);
         view.eye = match distance {
             // Farther than this the picture is a dot, nearer the eye touches the middle.
@@ -117,7 +123,7 @@ impl View {
 
     /// The eye from which everything is in the frame; axes must be set and the eye at the origin.
     fn fitted(&self, model: &Model) -> DVec3 {
-        let slope = self.size * (0.5 * FILL / self.focal);
+        let slope = self.middle * (FILL / self.focal);
         let most = |a: [f64; 4], b: [f64; 4]| std::array::from_fn(|i| a[i].max(b[i]));
         let none = [f64::NEG_INFINITY; 4];
         let reach = model

@@ -31,6 +31,17 @@ impl Rgb {
         [self.r, self.g, self.b].map(encode)
     }
 
+    /// Display values that average to this colour over a patch of pixels; `threshold` from [`dither`].
+    pub(crate) fn to_bytes_dithered(self, threshold: f32) -> [u8; 3] {
+        [self.r, self.g, self.b].map(|v| encode_dithered(v, threshold))
+    }
+
+    /// The smaller of each component.
+    #[inline]
+    pub(crate) fn least(self, o: Self) -> Self {
+        Self::new(self.r.min(o.r), self.g.min(o.g), self.b.min(o.b))
+    }
+
     /// `self` at 0, `other` at 1.
     #[inline]
     pub(crate) fn mix(self, other: Self, amount: f32) -> Self {
@@ -74,6 +85,22 @@ static DECODED: LazyLock<[f32; 256]> =
 /// Entry `v` is the least linear light displayed as `v + 1`: the transfer function at `v + 1/2`.
 static THRESHOLDS: LazyLock<[f32; 255]> =
     LazyLock::new(|| std::array::from_fn(|v| to_linear((v as f64 + 0.5) / 255.0) as f32));
+
+/// Positions of an 8 x 8 pattern, in bit-reversed order [Bayer73]: rounds so that gradients show no bands.
+pub(crate) fn dither(x: usize, y: usize) -> f32 {
+    let (mut v, x, y) = (0, x as u32 & 7, y as u32 & 7);
+    for bit in 0..3 {
+        v = (v << 2) | (((x ^ y) >> bit & 1) << 1) | (y >> bit & 1);
+    }
+    (v as f32 + 0.5) / 64.0
+}
+
+/// The display value below or above a linear one; above where the remainder passes `threshold` in (0, 1).
+fn encode_dithered(linear: f32, threshold: f32) -> u8 {
+    let low = (DECODED.partition_point(|&t| t <= linear).max(1) - 1).min(254);
+    let rest = (linear - DECODED[low]) / (DECODED[low + 1] - DECODED[low]);
+    low as u8 + u8::from(rest > threshold)
+}
 
 fn encode(linear: f32) -> u8 {
     THRESHOLDS.partition_point(|&t| t <= linear) as u8

@@ -2,7 +2,7 @@
 //!
 //! In the Oklab space [Ottosson20] with lightness L, chroma C and hue h, at position t in [0, 1]:
 //! ```text
-//! sequential   L = 0.28 + 0.62 t     h = 300 - 200 t degrees (violet, blue, green, yellow)   C = 0.17
+//! sequential   L = 0.28 + 0.62 t     h = 300 - 200 t degrees (violet, blue, green, yellow)   C = 0.15
 //! diverging    L = 0.93 - 0.43 s     h = 255 (t < 1/2) or 45 degrees                         C = 0.16 s,  s = |2t - 1|
 //! ```
 //! C is reduced to what sRGB can show at that lightness and hue (bisection). Lightness alone orders the sequential map, so
@@ -28,7 +28,7 @@ impl ColorMap {
         }
         let t = t.clamp(0.0, 1.0);
         match self {
-            Self::Sequential => displayable(0.28 + 0.62 * t, 0.17, 300.0 - 200.0 * t),
+            Self::Sequential => displayable(0.28 + 0.62 * t, 0.15, 300.0 - 200.0 * t),
             Self::Diverging => {
                 let s = (2.0 * t - 1.0).abs();
                 displayable(0.93 - 0.43 * s, 0.16 * s, if t < 0.5 { 255.0 } else { 45.0 })

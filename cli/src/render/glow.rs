@@ -16,7 +16,7 @@ use rayon::prelude::*;
 const RADIUS: f64 = 0.011;
 const LEAST_RADIUS: f64 = 4.0;
 /// Opacity of the halo at the mark.
-const STRENGTH: f64 = 0.55;
+const STRENGTH: f64 = 0.45;
 
 /// Halo over a picture.
 pub(super) struct Glow {

@@ -11,10 +11,13 @@
 #![allow(dead_code, unused_imports, unreachable_pub)] // the commands take up its parts one by one
 
 mod camera;
+mod caption;
 mod clip;
 mod color;
 mod color_map;
+mod floor;
 mod glow;
+mod glyphs;
 mod image;
 mod light;
 mod model;
@@ -25,6 +28,8 @@ mod scene;
 mod screen;
 mod shade;
 mod surface;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use color::Rgb;
 pub(crate) use color_map::ColorMap;

@@ -1,20 +1,21 @@
 //! [`render`]: a scene to an image, strip by strip.
 //!
-//! Method: visibility buffers of several samples a pixel, shaded once visible, tone-mapped, then filtered to pixels by a
+//! Method: visibility buffers of several samples a pixel, shaded once visible, then filtered to pixels by a
 //! tent a little wider than a pixel. Strips are independent and their size does not depend on the number of threads.
 
 use super::camera::View;
-use super::color::Rgb;
-use super::glow::{self, Glow};
+use super::caption::Layout;
+use super::color::{Rgb, dither};
+use super::floor::Floor;
+use super::glow::Glow;
 use super::image::Image;
 use super::light::Lights;
 use super::model::Model;
 use super::raster::Window;
 use super::scene::{MAX_SIDE, RenderError, Scene, Shading};
 use super::screen::{Screen, Strips};
-use super::shade::{self, Facet, Shader};
+use super::shade::{self, Facet, Sample, Shader};
 use super::surface::Surface;
-use glam::DVec3;
 use rayon::prelude::*;
 
 /// Pixel rows of a strip: its buffers stay in the cache.
@@ -49,7 +50,7 @@ pub(crate) fn render(scene: &Scene<'_>) -> Result<Image, RenderError> {
     let lights = Lights::of(&model, &surface, &view, shade::key_direction(), samples * samples);
     let shader = Shader::new(scene, &model, &surface.positions, &lights, view);
     let glow = Glow::of(&model, &surface, &view);
-    let floor = Floor::of(scene, &model, &surface, &view);
+    let floor = if scene.floor { Floor::of(&model, &surface, &view, &lights) } else { None };
     let painter =
         Painter { scene, model: &model, view, strips, screen: &screen, shader: &shader, glow, floor };
     let mut pixels = vec![[0; 3]; width as usize * height as usize];
@@ -57,7 +58,11 @@ pub(crate) fn render(scene: &Scene<'_>) -> Result<Image, RenderError> {
         .par_chunks_mut(width as usize * STRIP_ROWS as usize)
         .enumerate()
         .for_each(|(strip, rows)| painter.paint(strip, rows));
-    Ok(Image { width, height, pixels })
+    let mut image = Image { width, height, pixels };
+    if let Some(layout) = Layout::of(&scene.caption, scene.size) {
+        layout.draw(&mut image);
+    }
+    Ok(image)
 }
 
 fn check(scene: &Scene<'_>) -> Result<(), RenderError> {
@@ -119,28 +124,6 @@ fn filter(samples: usize) -> (usize, Vec<f32>) {
     (reach, weights.iter().map(|w| (w / sum) as f32).collect())
 }
 
-/// The plane under the scene, in view coordinates: `up . p = height`.
-struct Floor {
-    up: DVec3,
-    height: f64,
-}
-
-impl Floor {
-    /// `None` if there is nothing to stand on it, or the eye is below.
-    fn of(scene: &Scene<'_>, model: &Model, surface: &Surface, view: &View) -> Option<Self> {
-        if !scene.floor {
-            return None;
-        }
-        let up = view.up;
-        let whole = surface.whole.par_iter().flat_map_iter(|&t| model.corners(&surface.positions, t));
-        let lowest = |a: f64, b: f64| a.min(b);
-        let cut =
-            surface.pieces.iter().flat_map(|p| p.corners).map(|p| up.dot(p)).fold(f64::INFINITY, lowest);
-        let height = whole.map(|p| up.dot(p)).reduce(|| f64::INFINITY, lowest).min(cut);
-        (height < -1e-3 && height.is_finite()).then_some(Self { up, height: height - 1e-3 })
-    }
-}
-
 struct Painter<'a> {
     scene: &'a Scene<'a>,
     model: &'a Model,
@@ -167,7 +150,7 @@ impl Painter<'_> {
         let window =
             Window { x: (-apron, width * samples + apron), y: (top - apron, top + height * samples + apron) };
         let colors = self.samples(strip, window);
-        self.filter(window, &colors, rows);
+        self.filter(window, strip * STRIP_ROWS as usize, &colors, rows);
     }
 
     /// Colours of all samples in the window.
@@ -190,9 +173,12 @@ impl Painter<'_> {
             for x in window.x.0..window.x.1 {
                 let i = colors.len();
                 debug_assert_eq!(i / columns, (y - window.y.0) as usize);
-                let sample = (y.rem_euclid(n) * n + x.rem_euclid(n)) as usize;
-                let at = [x, y].map(|v| (f64::from(v) + 0.5) / f64::from(n));
-                colors.push(tone(self.color(&peels, hidden.as_ref(), &mut facets, i, at, sample)));
+                let [px, py] = [x, y].map(|v| (f64::from(v) + 0.5) / f64::from(n));
+                let index = (y.rem_euclid(n) * n + x.rem_euclid(n)) as usize;
+                // A row has fewer than 2^16 + 8 samples.
+                let seed = (y as u32).wrapping_mul(65_539).wrapping_add(x as u32);
+                let at = Sample { x: px, y: py, index, seed };
+                colors.push(self.color(&peels, hidden.as_ref(), &mut facets, i, at));
             }
         }
         colors
@@ -204,18 +190,17 @@ impl Painter<'_> {
         hidden: Option<&Visible>,
         facets: &mut [Option<Facet>],
         i: usize,
-        [x, y]: [f64; 2],
-        sample: usize,
+        at: Sample,
     ) -> Rgb {
         let mut ready = |slot: usize, source: u32| -> (Rgb, f32) {
             let place = &mut facets[slot];
-            let facet = match place.take() {
-                Some(f) if f.source == source => f,
-                _ => self.shader.facet(source),
-            };
-            let found = (self.shader.color(&facet, x, y, sample), facet.opacity);
-            *place = Some(facet);
-            found
+            if place.as_ref().is_none_or(|f| f.source != source) {
+                *place = None;
+            }
+            let facet = place.get_or_insert_with(|| self.shader.facet(source));
+            let shade =
+                if slot == PEELS { self.shader.ghost(facet, at) } else { self.shader.color(facet, at) };
+            (shade, facet.opacity)
         };
         let mut below = 1.0;
         let mut color = Rgb::BLACK;
@@ -231,14 +216,14 @@ impl Painter<'_> {
             }
         }
         if below > 0.0 {
-            color = color + self.backdrop(x, y, sample) * below;
+            color = color + self.backdrop(at.x, at.y) * below;
         }
         let first = peels[0].source[i];
         if let Some(hidden) = hidden {
             let bright = first != NONE && self.model.highlighted[first as usize];
             if !bright {
                 if let Some(glow) = &self.glow {
-                    let halo = glow.at(x, y);
+                    let halo = glow.at(at.x, at.y);
                     if halo > 0.0 {
                         color = color.mix(glow.color(self.shader), halo);
                     }
@@ -253,17 +238,14 @@ impl Painter<'_> {
         color
     }
 
-    fn backdrop(&self, x: f64, y: f64, sample: usize) -> Rgb {
+    fn backdrop(&self, x: f64, y: f64) -> Rgb {
         let background = &self.scene.background;
         let t = (y / f64::from(self.scene.size[1])).clamp(0.0, 1.0) as f32;
         let color = background.top.mix(background.bottom, t);
-        let Some(floor) = &self.floor else { return color };
-        let ray = self.view.ray(x, y);
-        let slope = floor.up.dot(ray);
-        if slope >= -1e-6 {
-            return color;
+        match &self.floor {
+            Some(floor) => color * floor.light(self.view.ray(x, y)),
+            None => color,
         }
-        color * self.shader.floor_light((ray * (floor.height / slope)).as_vec3(), sample)
     }
 
     /// The nearest triangles, or the nearest behind those already found. Of equally near ones the first.
@@ -312,7 +294,7 @@ impl Painter<'_> {
     }
 
     /// Samples to pixels.
-    fn filter(&self, window: Window, colors: &[Rgb], rows: &mut [[u8; 3]]) {
+    fn filter(&self, window: Window, top: usize, colors: &[Rgb], rows: &mut [[u8; 3]]) {
         let columns = (window.x.1 - window.x.0) as usize;
         let samples = self.scene.samples as usize;
         let width = self.scene.size[0] as usize;
@@ -334,22 +316,8 @@ impl Painter<'_> {
                     .iter()
                     .enumerate()
                     .fold(Rgb::BLACK, |sum, (i, &w)| sum + across[(y * samples + first + i) * width + x] * w);
-                *pixel = sum.to_bytes();
+                *pixel = sum.to_bytes_dithered(dither(x, top + y));
             }
         }
     }
-}
-
-/// Linear up to the knee, then bent so that light above 1 still shows differences.
-fn tone(c: Rgb) -> Rgb {
-    const KNEE: f32 = 0.7;
-    let bend = |v: f32| {
-        if v <= KNEE {
-            v
-        } else {
-            let x = (v - KNEE) / (1.0 - KNEE);
-            KNEE + (1.0 - KNEE) * (x / (1.0 + x)) * 1.25
-        }
-    };
-    Rgb::new(bend(c.r), bend(c.g), bend(c.b))
 }

@@ -26,8 +26,9 @@ impl Corner {
     /// The corner nearest to a position in samples. The position must be within `LIMIT / SUBDIVISIONS`.
     #[inline]
     pub(super) fn snap(x: f64, y: f64, depth: f64) -> Self {
-        let s = f64::from(SUBDIVISIONS);
-        Self { x: (x * s + 0.5).floor() as i32, y: (y * s + 0.5).floor() as i32, depth: depth as f32 }
+        // Made positive, so that the cast rounds down.
+        let nearest = |v: f64| (v * f64::from(SUBDIVISIONS) + (0.5 + 2.0 * LIMIT)) as i32 - 2 * LIMIT as i32;
+        Self { x: nearest(x), y: nearest(y), depth: depth as f32 }
     }
 }
 
@@ -71,17 +72,6 @@ impl Edge {
 #[inline]
 pub(super) fn triangle(corners: [Corner; 3], window: Window, mut plot: impl FnMut(i32, i32, f32)) {
     let [a, mut b, mut c] = corners;
-    let area = |a: Corner, b: Corner, c: Corner| {
-        (i64::from(b.x) - i64::from(a.x)) * (i64::from(c.y) - i64::from(a.y))
-            - (i64::from(b.y) - i64::from(a.y)) * (i64::from(c.x) - i64::from(a.x))
-    };
-    let mut twice_area = area(a, b, c);
-    if twice_area == 0 {
-        return;
-    }
-    if twice_area < 0 {
-        (b, c, twice_area) = (c, b, -twice_area);
-    }
     let x0 = first_sample(a.x.min(b.x).min(c.x)).max(window.x.0);
     let x1 = first_sample(a.x.max(b.x).max(c.x).saturating_add(1)).min(window.x.1);
     let y0 = first_sample(a.y.min(b.y).min(c.y)).max(window.y.0);
@@ -89,9 +79,17 @@ pub(super) fn triangle(corners: [Corner; 3], window: Window, mut plot: impl FnMu
     if x0 >= x1 || y0 >= y1 {
         return;
     }
+    let twice_area = (i64::from(b.x) - i64::from(a.x)) * (i64::from(c.y) - i64::from(a.y))
+        - (i64::from(b.y) - i64::from(a.y)) * (i64::from(c.x) - i64::from(a.x));
+    if twice_area == 0 {
+        return;
+    }
+    if twice_area < 0 {
+        (b, c) = (c, b);
+    }
     let (mut ea, mut eb, mut ec) =
         (Edge::new(b, c, x0, y0), Edge::new(c, a, x0, y0), Edge::new(a, b, x0, y0));
-    let scale = 1.0 / twice_area as f64;
+    let scale = 1.0 / twice_area.abs() as f64;
     let depth = f64::from(a.depth);
     let (to_b, to_c) = ((f64::from(b.depth) - depth) * scale, (f64::from(c.depth) - depth) * scale);
     for y in y0..y1 {

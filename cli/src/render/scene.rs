@@ -131,9 +131,9 @@ pub(crate) struct Style {
 impl Default for Style {
     fn default() -> Self {
         Self {
-            shading: Shading::Smooth { crease_degrees: 40.0 },
+            shading: Shading::Smooth { crease_degrees: 50.0 },
             front: Rgb::of_bytes([229, 219, 200]),
-            back: Rgb::of_bytes([92, 132, 164]),
+            back: Rgb::of_bytes([112, 150, 180]),
             accent: Rgb::of_bytes([222, 76, 20]),
             edges: None,
             opacity: 1.0,
@@ -212,7 +212,7 @@ pub(crate) struct Background {
 
 impl Default for Background {
     fn default() -> Self {
-        Self { top: Rgb::of_bytes([247, 248, 250]), bottom: Rgb::of_bytes([203, 211, 219]) }
+        Self { top: Rgb::of_bytes([241, 242, 244]), bottom: Rgb::of_bytes([203, 211, 219]) }
     }
 }
 
@@ -225,13 +225,16 @@ pub(crate) struct Cut {
     pub(crate) value: f64,
 }
 
-/// Text in the lower left corner. Characters other than printable ASCII are drawn as `?`.
+/// Text in the lower left corner. Characters other than printable ASCII are drawn as `?`, text too long
+/// for the picture is cut, and pictures under 160 pixels get none.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Caption {
     /// Larger, first line.
     pub(crate) title: String,
     /// Further lines, each with an optional swatch of colour before it.
     pub(crate) lines: Vec<(Option<Rgb>, String)>,
+    /// A colour bar between the texts of its ends.
+    pub(crate) scale: Option<(ColorMap, [String; 2])>,
 }
 
 /// Why a scene is not drawn.

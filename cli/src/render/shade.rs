@@ -20,17 +20,41 @@ const KEY: DVec3 = DVec3::new(-0.55, 0.75, 0.62);
 const FILL: Vec3 = Vec3::new(0.80, 0.10, 0.60);
 const RIM: Vec3 = Vec3::new(0.45, 0.55, -0.80);
 /// Strengths, relative to a white surface fully lit at 1.
-const KEY_LIGHT: Rgb = Rgb::new(0.86, 0.82, 0.75);
-const SKY_LIGHT: Rgb = Rgb::new(0.40, 0.43, 0.48);
-const FILL_LIGHT: Rgb = Rgb::new(0.10, 0.11, 0.13);
+const KEY_LIGHT: Rgb = Rgb::new(0.84, 0.81, 0.76);
+const SKY_LIGHT: Rgb = Rgb::new(0.42, 0.42, 0.44);
+const FILL_LIGHT: Rgb = Rgb::new(0.15, 0.13, 0.11);
 const RIM_LIGHT: Rgb = Rgb::new(0.16, 0.16, 0.17);
-const SPECULAR: f32 = 0.07;
+/// Share of the sky's light that stands for what surfaces send each other where no sky is seen.
+const BETWEEN: f32 = 0.16;
+const SPECULAR: f32 = 0.09;
 /// Share of its own colour that a highlighted triangle shows without light.
 const GLOW: f32 = 0.28;
 
 /// Toward the key light, of unit length.
 pub(super) fn key_direction() -> DVec3 {
     KEY.normalize()
+}
+
+/// A point of the picture that is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sample {
+    /// In pixels, y downward.
+    pub(super) x: f64,
+    pub(super) y: f64,
+    /// Number among the samples of its pixel.
+    pub(super) index: usize,
+    /// Different for every sample of a picture.
+    pub(super) seed: u32,
+}
+
+impl Sample {
+    /// Two numbers in [-1, 1], scattered by a permuted congruential step [ONeill14].
+    fn jitter(&self) -> [f32; 2] {
+        let state = self.seed.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+        let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+        let word = (word >> 22) ^ word;
+        [word & 0xffff, word >> 16].map(|v| v as f32 * (1.0 / 32_768.0) - 1.0)
+    }
 }
 
 /// What shading needs to know of all triangles.
@@ -161,9 +185,17 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Colour of a facet at the point `(x, y)` of the picture, in pixels, for one of the samples of a pixel.
-    pub(super) fn color(&self, facet: &Facet, x: f64, y: f64, sample: usize) -> Rgb {
-        let ray = self.view.ray(x, y);
+    /// Colour of a hidden highlighted facet, seen through others: its own light only, dimmer where it turns away.
+    pub(super) fn ghost(&self, facet: &Facet, at: Sample) -> Rgb {
+        let Albedo::Glowing(accent) = facet.albedo else { return self.color(facet, at) };
+        let ray = self.view.ray(at.x, at.y);
+        let facing = facet.side.dot(-ray.normalize_or_zero().as_vec3()).clamp(0.0, 1.0);
+        accent * (0.85 + 0.3 * facing)
+    }
+
+    /// Colour of a facet at a sample.
+    pub(super) fn color(&self, facet: &Facet, at: Sample) -> Rgb {
+        let ray = self.view.ray(at.x, at.y);
         let e = facet.edge.map(|n| n.dot(ray));
         let sum = e[0] + e[1] + e[2];
         // Seen edge on, or a sample that the grid gave to a triangle it just misses: clamped into the triangle.
@@ -183,22 +215,31 @@ impl<'a> Shader<'a> {
                 (self.layers[facet.layer].field(t[0] * b[0] + t[1] * b[1] + t[2] * b[2]), 0.0)
             }
         };
-        let mut color = self.lit(albedo, point, normal, facet.side, sample) * (1.0 - glow) + albedo * glow;
+        // Lifted toward the smooth surface that the corner normals suggest [Hanika21]: else a coarse mesh shadows itself.
+        let lift = (0..3).fold(Vec3::ZERO, |sum, i| {
+            let below = (point - v[i].as_vec3()).dot(n[i]).min(0.0);
+            sum - n[i] * (w[i] * below)
+        });
+        let mut color = self.lit(albedo, point, point + lift, normal, at) * (1.0 - glow) + albedo * glow;
         if facet.line > 0.0
             && let Some(edges) = self.layers[facet.layer].style.edges
         {
             let distance = (0..3).map(|i| e[i].abs() * facet.pixels[i]).fold(f64::INFINITY, f64::min);
             // Half of the line lies on either side of the edge.
             let cover = (0.5 * edges.width - distance + 0.25).clamp(0.0, 0.5) * 2.0;
-            color = color.mix(edges.color, cover as f32 * facet.line);
+            // In shadow a line stays darker than the surface.
+            let ink = edges.color.least(color * 0.4);
+            color = color.mix(ink, cover as f32 * facet.line);
         }
         color
     }
 
-    fn lit(&self, albedo: Rgb, point: Vec3, normal: Vec3, side: Vec3, sample: usize) -> Rgb {
+    fn lit(&self, albedo: Rgb, point: Vec3, lifted: Vec3, normal: Vec3, at: Sample) -> Rgb {
         let toward_eye = (-point).normalize_or_zero();
         let key = key_direction().as_vec3();
-        let [sky_seen, key_seen] = self.lights.reaching(point, normal, side, sample);
+        let [sky_seen, key_seen] = self.lights.reaching(lifted, normal, at.index, at.jitter());
+        // Light between surfaces reaches into cavities.
+        let sky_seen = BETWEEN + (1.0 - BETWEEN) * sky_seen;
         let key_light = normal.dot(key).max(0.0) * key_seen;
         let fill = (normal.dot(FILL) * 0.5 + 0.5).max(0.0) * sky_seen;
         let rim = normal.dot(RIM).max(0.0) * sky_seen;
@@ -213,18 +254,20 @@ impl<'a> Shader<'a> {
         let x = x * x;
         let x = x * x;
         let specular = SPECULAR * x * x * key_seen;
-        albedo * light + Rgb::new(specular, specular, specular)
+        tone(albedo * light + Rgb::new(specular, specular, specular))
     }
+}
 
-    /// Share of the backdrop's light that a point of the floor gets.
-    pub(super) fn floor_light(&self, point: Vec3, sample: usize) -> f32 {
-        if self.lights.is_far(point) {
-            return 1.0;
-        }
-        let up = self.view.up.as_vec3();
-        let [sky, key] = self.lights.reaching(point, up, up, sample);
-        0.45 + 0.37 * sky + 0.18 * key
-    }
+/// Bends light above the knee so that it still shows differences: x (1 + x / w^2) / (1 + x) [Reinhard02] above it, which is
+/// smooth at the knee and reaches full light at w.
+fn tone(c: Rgb) -> Rgb {
+    const KNEE: f32 = 0.6;
+    const FULL: f32 = 2.5;
+    let bend = |v: f32| {
+        let x = ((v - KNEE) / (1.0 - KNEE)).clamp(0.0, FULL);
+        v.min(KNEE) + (1.0 - KNEE) * x * (1.0 + x / (FULL * FULL)) / (1.0 + x)
+    };
+    Rgb::new(bend(c.r), bend(c.g), bend(c.b))
 }
 
 /// Fades lines where triangles are not much wider than they.
