@@ -1,4 +1,4 @@
-//! Colours in linear light, and the sRGB transfer function [IEC61966-2-1].
+//! Colours in linear light, and the sRGB transfer function (IEC 61966-2-1:1999).
 
 use std::sync::LazyLock;
 

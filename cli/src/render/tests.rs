@@ -3,7 +3,7 @@
 use super::*;
 use glam::DVec3;
 use welter_meshing::shapes;
-use welter_meshing::surface::{TriId, VertexId};
+use welter_meshing::surface::{ClosedOrientedMesh, TriId, VertexId};
 
 /// A background that no lit surface takes.
 const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
@@ -23,6 +23,14 @@ fn bare(layers: Vec<Layer<'_>>) -> Scene<'_> {
         floor: false,
         ..Scene::default()
     }
+}
+
+fn drawn(scene: &Scene<'_>) -> Image {
+    render(scene).expect("the scene is sound")
+}
+
+fn shape(name: &str) -> ClosedOrientedMesh {
+    shapes::by_name(name, None).expect("a known shape")
 }
 
 fn is_background(p: [u8; 3]) -> bool {
@@ -55,7 +63,7 @@ fn a_square_facing_the_eye_covers_the_pixels_that_perspective_says() {
     let mut scene = bare(vec![layer(&positions, &triangles)]);
     scene.camera = Camera::Orbit { azimuth: 0.0, elevation: 0.0, distance: Some(5.0) };
     scene.size = [100, 100];
-    let image = render(&scene).unwrap();
+    let image = drawn(&scene);
     // 50 pixels are tan 15 degrees = 0.267949...; the square's half side is seen under 1 / 5.
     let half = 50.0 * 0.2 / 0.267_949_192_431_122_7;
     for (y, row) in rows(&image).enumerate() {
@@ -73,12 +81,12 @@ fn a_square_facing_the_eye_covers_the_pixels_that_perspective_says() {
 #[test]
 fn a_closed_surface_shows_no_gap_inside_its_outline() {
     for name in ["sphere", "box", "dumbbell"] {
-        let mesh = shapes::by_name(name, None).unwrap();
+        let mesh = shape(name);
         for (azimuth, elevation) in [(0.0, 0.0), (33.0, 21.0), (-71.0, 64.0)] {
             let mut scene = bare(vec![Layer::of(mesh.as_mesh())]);
             scene.camera = Camera::Orbit { azimuth, elevation, distance: None };
             scene.samples = 2;
-            let image = render(&scene).unwrap();
+            let image = drawn(&scene);
             assert!(image.pixels.iter().filter(|&&p| is_surface(p)).count() > 1000, "{name}");
             assert_no_gap(&image);
         }
@@ -112,11 +120,11 @@ fn assert_no_gap(image: &Image) {
 
 #[test]
 fn inside_a_closed_surface_no_background_is_seen() {
-    let mesh = shapes::by_name("sphere", None).unwrap();
+    let mesh = shape("sphere");
     for distance in [1e-300, 1e-3, 0.3, 0.9] {
         let mut scene = bare(vec![Layer::of(mesh.as_mesh())]);
         scene.camera = Camera::Orbit { azimuth: 12.0, elevation: 34.0, distance: Some(distance) };
-        let image = render(&scene).unwrap();
+        let image = drawn(&scene);
         for &[r, g, _] in &image.pixels {
             assert!(g >= r, "the back colour is blue: {r} {g}");
         }
@@ -139,7 +147,7 @@ fn rich<'a>(layers: Vec<Layer<'a>>) -> Scene<'a> {
 
 #[test]
 fn the_same_bits_for_any_number_of_threads() {
-    let mesh = shapes::by_name("ring-overlap", Some(0.2)).unwrap();
+    let mesh = shapes::by_name("ring-overlap", Some(0.2)).expect("a known shape");
     let values: Vec<f64> = mesh.as_mesh().positions().iter().map(|p| p.x * p.y).collect();
     let highlighted: Vec<TriId> = (0..40).map(|i| TriId(7 * i)).collect();
     let mut l = Layer::of(mesh.as_mesh());
@@ -147,8 +155,8 @@ fn the_same_bits_for_any_number_of_threads() {
     l.paint = Paint::VertexField(Field { values: &values, range: None, map: ColorMap::Diverging });
     let scene = rich(vec![l]);
     let with = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| render(&scene).unwrap())
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| drawn(&scene))
     };
     let one = with(1);
     assert!(one.pixels.iter().any(|&p| p != one.pixels[0]));
@@ -168,7 +176,7 @@ fn scaling_by_powers_of_two_changes_nothing_from_subnormal_to_huge() {
         scene.camera = Camera::Automatic;
         scene.floor = true;
         scene.cut = Some(Cut { axis: 0, value: libm::scalbn(1.0, exponent) });
-        render(&scene).unwrap()
+        drawn(&scene)
     };
     let unit = image(0);
     for exponent in [-1074, -1022, -500, 1, 700, 1021, 1022] {
@@ -178,14 +186,14 @@ fn scaling_by_powers_of_two_changes_nothing_from_subnormal_to_huge() {
 
 #[test]
 fn a_mirrored_surface_has_a_mirrored_outline() {
-    let mesh = shapes::by_name("sphere", None).unwrap();
+    let mesh = shape("sphere");
     let mesh = mesh.as_mesh();
     // Asymmetric, so that its mirror image is another surface.
     let bent: Vec<DVec3> =
         mesh.positions().iter().map(|p| DVec3::new(p.x + 0.3 * p.y * p.y, p.y, p.z)).collect();
     let mirrored: Vec<DVec3> = bent.iter().map(|p| DVec3::new(-p.x, p.y, p.z)).collect();
     let outline = |positions: &[DVec3]| {
-        let image = render(&bare(vec![layer(positions, mesh.triangles())])).unwrap();
+        let image = drawn(&bare(vec![layer(positions, mesh.triangles())]));
         rows(&image).map(|r| r.iter().map(|&p| is_background(p)).collect()).collect::<Vec<Vec<bool>>>()
     };
     let (left, mut right) = (outline(&bent), outline(&mirrored));
@@ -197,14 +205,14 @@ fn a_mirrored_surface_has_a_mirrored_outline() {
 #[test]
 fn the_fitted_view_fills_the_frame_and_keeps_the_margin() {
     for name in ["torus", "helix-overlap", "two-boxes"] {
-        let mesh = shapes::by_name(name, None).unwrap();
+        let mesh = shape(name);
         for size in [[150, 60], [60, 150], [100, 100]] {
             for camera in
                 [Camera::Automatic, Camera::Orbit { azimuth: 250.0, elevation: -40.0, distance: None }]
             {
                 let mut scene = bare(vec![Layer::of(mesh.as_mesh())]);
                 (scene.size, scene.camera, scene.samples) = (size, camera, 2);
-                let image = render(&scene).unwrap();
+                let image = drawn(&scene);
                 let (mut low, mut high) = ([u32::MAX; 2], [0; 2]);
                 for y in 0..size[1] {
                     for x in 0..size[0] {
@@ -230,10 +238,10 @@ fn a_hidden_highlighted_triangle_shows_through() {
     positions.extend([DVec3::new(-0.4, -0.4, 0.0), DVec3::new(0.4, -0.4, 0.0), DVec3::new(0.0, 0.5, 0.0)]);
     triangles.push([first, first + 1, first + 2].map(VertexId));
     let highlighted = [TriId(triangles.len() as u32 - 1)];
-    let plain = render(&bare(vec![layer(&positions, &triangles)])).unwrap().pixel(60, 45);
+    let plain = drawn(&bare(vec![layer(&positions, &triangles)])).pixel(60, 45);
     let mut l = layer(&positions, &triangles);
     l.highlighted = &highlighted;
-    let seen = render(&bare(vec![l])).unwrap().pixel(60, 45);
+    let seen = drawn(&bare(vec![l])).pixel(60, 45);
     let redness = |[r, g, _]: [u8; 3]| i32::from(r) - i32::from(g);
     assert!(redness(plain) < 20 && redness(seen) > 60, "{plain:?} {seen:?}");
 }
@@ -246,7 +254,7 @@ fn a_highlighted_triangle_wins_over_its_twin_in_the_same_place() {
         let highlighted = [TriId(id)];
         let mut l = layer(&positions, &twins);
         l.highlighted = &highlighted;
-        let [r, g, _] = render(&bare(vec![l])).unwrap().pixel(60, 45);
+        let [r, g, _] = drawn(&bare(vec![l])).pixel(60, 45);
         assert!(r > g + 60, "{r} {g}");
     }
 }
@@ -257,10 +265,10 @@ fn a_cut_opens_the_near_side_and_shows_the_inside_in_the_back_colour() {
     for (azimuth, axis) in [(0.0, 2), (180.0, 2), (90.0, 0), (-90.0, 0)] {
         let mut scene = bare(vec![layer(&positions, &triangles)]);
         scene.camera = Camera::Orbit { azimuth, elevation: 0.0, distance: None };
-        let [r, _, b] = render(&scene).unwrap().pixel(60, 45);
+        let [r, _, b] = drawn(&scene).pixel(60, 45);
         assert!(r > b, "front: {r} {b}");
         scene.cut = Some(Cut { axis, value: 0.1 });
-        let [r, _, b] = render(&scene).unwrap().pixel(60, 45);
+        let [r, _, b] = drawn(&scene).pixel(60, 45);
         assert!(b > r, "back: {r} {b}");
     }
 }
@@ -279,7 +287,7 @@ fn scenes_without_area_are_backdrops() {
     ] {
         let mut scene = bare(layers);
         scene.floor = true;
-        assert!(render(&scene).unwrap().pixels.into_iter().all(is_background));
+        assert!(drawn(&scene).pixels.into_iter().all(is_background));
     }
 }
 
@@ -290,7 +298,7 @@ fn every_size_and_sampling_is_drawn() {
         for samples in 1..=4 {
             let mut scene = bare(vec![layer(&positions, &triangles)]);
             (scene.size, scene.samples) = (size, samples);
-            let image = render(&scene).unwrap();
+            let image = drawn(&scene);
             assert_eq!(image.pixels.len(), (size[0] * size[1]) as usize);
             assert!(image.pixels.iter().any(|&p| !is_background(p)), "{size:?} {samples}");
         }
@@ -350,7 +358,7 @@ fn fields_show_their_colours_and_nan_is_grey() {
             range: Some([f64::MIN, f64::MAX]),
             map: ColorMap::Sequential,
         });
-        render(&bare(vec![l])).unwrap().pixel(60, 45)
+        drawn(&bare(vec![l])).pixel(60, 45)
     };
     let [r, g, b] = colour(&values);
     assert!(b > g && b > r, "violet: {r} {g} {b}");
