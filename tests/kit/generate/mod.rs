@@ -1,5 +1,7 @@
-//! Generators of hard input: coordinates ([`number`]) and configurations of points ([`Kind`]).
+//! Generators of hard input: coordinates ([`number`]) and configurations of points ([`Kind`],
+//! [`graded`]).
 
+pub mod graded;
 pub mod number;
 mod points;
 mod strategy;
