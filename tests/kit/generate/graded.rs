@@ -16,12 +16,12 @@ pub fn near_hyperplane<const D: usize, const N: usize>(
     assert_eq!(N, D + 1);
     // The origin is the mean of the others.
     let mut points = [[0.0; D]; N];
-    for i in 0..D - 1 {
-        points[i] = [(); D].map(|()| dyadic(entropy) / 16.0);
-        for axis in 0..D {
-            points[D - 1][axis] -= points[i][axis];
-        }
+    let mut sum = [0.0; D];
+    for point in points.iter_mut().take(D - 1) {
+        *point = [(); D].map(|()| dyadic(entropy) / 16.0);
+        sum = std::array::from_fn(|axis| sum[axis] + point[axis]);
     }
+    points[D - 1] = sum.map(|c| -c);
     points[D] = displacement(bits, entropy);
     points
 }
