@@ -1,5 +1,8 @@
 //! Tests of `welter_meshing::shapes`: what the table of the module promises, at several resolutions; refusals; bits.
 
+use proptest::prelude::*;
+use welter_kit::entropy::{Entropy, stream};
+use welter_kit::generate::number;
 use welter_meshing::shapes::*;
 use welter_meshing::spatial::self_intersections;
 use welter_meshing::surface::measure::{
@@ -177,6 +180,69 @@ fn parameters_out_of_range_are_refused_by_name() {
         sweep_of(vec![DVec3::ZERO, DVec3::X], clockwise),
         Err(ShapeError::Parameter { parameter: "profile", .. })
     ));
+}
+
+#[test]
+fn long_thin_shapes_are_refused_before_anything_is_allocated() {
+    let refused = |result: Result<_, ShapeError>| {
+        assert!(matches!(result.map(drop), Err(ShapeError::TooManyTriangles { .. })));
+    };
+    let edge_length = 1e-70;
+    refused(box_(&Box_ { min: DVec3::ZERO, max: DVec3::new(1e70, 1e-300, 1e-300), edge_length }));
+    refused(torus(&Torus { tube_radius: 1e-75, edge_length, ..Torus::default() }));
+    refused(ring_overlap(&RingOverlap { tube_radius: 1e-75, edge_length, ..RingOverlap::default() }));
+    refused(moebius(&Moebius { width: 1e-75, thickness: 1e-75, edge_length, ..Moebius::default() }));
+    let neck = Dumbbell { radius: 1e-74, neck_radius: 1e-75, fillet_radius: 1e-75, ..Dumbbell::default() };
+    refused(dumbbell(&Dumbbell { edge_length, ..neck }));
+}
+
+/// Lengths of every size, so that their ratios are extreme.
+fn length() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        4 => 0.01..3.0,
+        1 => (-80.0..80.0).prop_map(|exponent: f64| 10.0_f64.powf(exponent)),
+        1 => any::<u64>().prop_map(|seed| number::mixed(&mut Entropy::new(&stream(seed, 64)))),
+    ]
+}
+
+proptest! {
+    #[test]
+    fn any_parameters_give_a_surface_or_a_refusal(
+        [a, b, c, d] in prop::array::uniform4(length()),
+        fineness in -1.3..2.0,
+        half_turns in -200..200i32,
+    ) {
+        let longest = [a, b, c, d].into_iter().fold(0.0_f64, |x, y| x.max(y.abs()));
+        let edge_length = longest * 10.0_f64.powf(fineness);
+        let center = DVec3::new(a, -b, c);
+        // Each generator asserts that what it made is closed and oriented.
+        let _ = sphere(&Sphere { center, radius: d, edge_length });
+        let _ = torus(&Torus { center, radius: d, tube_radius: c, edge_length });
+        let _ = box_(&Box_ { min: DVec3::new(a, b, c), max: DVec3::new(b, c, d), edge_length });
+        let _ = two_boxes(&BoxPair { first: [center, center + d], edge_length, ..BoxPair::nested() });
+        let _ = dumbbell(&Dumbbell { radius: a, distance: b, neck_radius: c, fillet_radius: d, edge_length });
+        let _ = ring_overlap(&RingOverlap { radius: a, tube_radius: b, overlap: c, drift: d, edge_length });
+        let _ = helix_overlap(&HelixOverlap { radius: a, tube_radius: b, pitch: c, turns: d, edge_length });
+        let _ = trefoil_overlap(&TrefoilOverlap { radius: a, height: b, tube_radius: c, edge_length });
+        let _ = figure_eight(&FigureEight { radius: a, tube_radius: b, edge_length });
+        let band = Moebius { radius: a, width: b, thickness: c, half_turns, edge_length };
+        let _ = (moebius(&band), double_moebius(&band));
+    }
+
+    #[test]
+    fn any_sweep_gives_a_surface_or_a_refusal(
+        centers in prop::collection::vec(prop::array::uniform3(length()), 0..8),
+        profile in prop::collection::vec(prop::array::uniform2(length()), 0..8),
+        closed in any::<bool>(),
+        twist in any::<i32>(),
+    ) {
+        let centers = centers.into_iter().map(DVec3::from_array).collect();
+        let profile: Vec<_> = profile.into_iter().map(DVec2::from_array).collect();
+        let reversed = profile.iter().rev().copied().collect();
+        for profile in [profile, reversed] {
+            let _ = sweep(&Sweep { centers: Vec::clone(&centers), closed, profile, twist });
+        }
+    }
 }
 
 #[test]

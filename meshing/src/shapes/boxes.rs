@@ -4,7 +4,9 @@
 //! Method: each side is divided evenly, each grid square into two triangles whose diagonals alternate, so that no
 //! corner of the box is cut off by one triangle only on one side. Corners and edges are exact.
 
-use super::error::{ShapeError, divisions, finish, require, require_coordinates, require_edge_length};
+use super::error::{
+    ShapeError, divisions, finish, require, require_coordinates, require_length, require_triangles,
+};
 use crate::surface::{ClosedOrientedMesh, TriangleSoup};
 use glam::DVec3;
 
@@ -90,7 +92,8 @@ pub fn box_(parameters: &Box_) -> Result<ClosedOrientedMesh, ShapeError> {
     let &Box_ { min, max, edge_length } = parameters;
     let mut soup = TriangleSoup::default();
     require_box(["min", "max"], [min, max])?;
-    require_edge_length(edge_length, area([min, max]))?;
+    require_length("edge_length", edge_length)?;
+    require_triangles(edge_length, triangles([min, max], edge_length))?;
     add_box(&mut soup, [min, max], edge_length, false);
     Ok(finish(soup))
 }
@@ -110,7 +113,8 @@ pub fn two_boxes(parameters: &BoxPair) -> Result<ClosedOrientedMesh, ShapeError>
     let &BoxPair { first, second, second_reversed, edge_length } = parameters;
     require_box(["first", "first"], first)?;
     require_box(["second", "second"], second)?;
-    require_edge_length(edge_length, area(first) + area(second))?;
+    require_length("edge_length", edge_length)?;
+    require_triangles(edge_length, triangles(first, edge_length) + triangles(second, edge_length))?;
     let mut soup = TriangleSoup::default();
     add_box(&mut soup, first, edge_length, false);
     add_box(&mut soup, second, edge_length, second_reversed);
@@ -166,9 +170,14 @@ fn require_box(names: [&'static str; 2], [min, max]: [DVec3; 2]) -> Result<(), S
     Ok(())
 }
 
-fn area([min, max]: [DVec3; 2]) -> f64 {
-    let side = max - min;
-    2.0 * (side.x * side.y + side.y * side.z + side.z * side.x)
+/// Grid cells along each axis.
+fn cells([min, max]: [DVec3; 2], edge_length: f64) -> [f64; 3] {
+    (max - min).to_array().map(|side| divisions(side, edge_length, 1))
+}
+
+fn triangles(corners: [DVec3; 2], edge_length: f64) -> f64 {
+    let [x, y, z] = cells(corners, edge_length);
+    4.0 * (x * y + y * z + z * x)
 }
 
 /// The grid points on the surface of a box, numbered layer by layer: all of the bottom, the rims, all of the top.
@@ -218,7 +227,7 @@ impl Lattice {
 }
 
 fn add_box(soup: &mut TriangleSoup, [min, max]: [DVec3; 2], edge_length: f64, reversed: bool) {
-    let lattice = Lattice { cells: (max - min).to_array().map(|side| divisions(side, edge_length, 1)) };
+    let lattice = Lattice { cells: cells([min, max], edge_length).map(|count| count as u32) };
     let cells = lattice.cells;
     let first = soup.positions.len() as u32;
     soup.positions.extend(lattice.points().into_iter().map(|point| {

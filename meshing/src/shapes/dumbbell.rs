@@ -10,7 +10,7 @@
 //! ```
 //! Each ring of vertices has as many as its circumference needs, so triangles keep their size toward the poles.
 
-use super::error::{ShapeError, divisions, finish, require, require_edge_length, require_length};
+use super::error::{ShapeError, divisions, finish, require, require_length, require_triangles};
 use super::rings::RingBuilder;
 use crate::surface::ClosedOrientedMesh;
 use glam::{DVec2, DVec3};
@@ -61,12 +61,13 @@ pub fn dumbbell(parameters: &Dumbbell) -> Result<ClosedOrientedMesh, ShapeError>
     let down = (reach * reach - across * across).sqrt();
     let half_neck = 0.5 * distance - down;
     require(half_neck >= 0.0, "fillet_radius", fillet_radius, "small enough to fit between the spheres")?;
-    require_edge_length(edge_length, 8.0 * PI * radius * radius + TAU * radius * distance)?;
+    require_length("edge_length", edge_length)?;
 
     let generator = Generator { radius, distance, neck_radius, fillet_radius, half_neck, down, across };
+    require_triangles(edge_length, generator.triangles(edge_length))?;
     let mut rings = RingBuilder::default();
     for point in generator.line(edge_length) {
-        let around = if point.x == 0.0 { 1 } else { divisions(TAU * point.x, edge_length, 6) };
+        let around = if point.x == 0.0 { 1 } else { divisions(TAU * point.x, edge_length, 6) as u32 };
         rings.push((0..around).map(|i| {
             let (sin, cos) = libm::sincos(TAU * f64::from(i) / f64::from(around));
             DVec3::new(point.x * cos, point.x * sin, point.y)
@@ -89,6 +90,16 @@ struct Generator {
 }
 
 impl Generator {
+    /// At most so many triangles: two a vertex, with the rings of a part as large as its largest.
+    fn triangles(&self, edge_length: f64) -> f64 {
+        let around = |radius| divisions(TAU * radius, edge_length, 6);
+        let along = |length| divisions(length, edge_length, 2);
+        let neck = along(self.half_neck) * around(self.neck_radius);
+        let fillet = along(FRAC_PI_2 * self.fillet_radius) * around(self.radius);
+        let sphere = along(PI * self.radius) * around(self.radius);
+        4.0 * (neck + fillet + sphere)
+    }
+
     /// Points along the line from the lower pole to the upper one, about `edge_length` apart.
     fn line(&self, edge_length: f64) -> Vec<DVec2> {
         // The upper half from the neck's middle to the pole, then mirrored. Angles are above the equator.
@@ -96,7 +107,7 @@ impl Generator {
         let sphere = DVec2::new(0.0, 0.5 * self.distance);
         let fillet = DVec2::new(self.across, self.half_neck);
         let mut upper = Vec::new();
-        let neck_steps = divisions(self.half_neck, edge_length, 1);
+        let neck_steps = divisions(self.half_neck, edge_length, 1) as u32;
         for i in 0..neck_steps {
             let z = self.half_neck * f64::from(i) / f64::from(neck_steps);
             upper.push(DVec2::new(self.neck_radius, z));
@@ -114,7 +125,7 @@ impl Generator {
 
 /// Points of an arc without its last.
 fn arc(points: &mut Vec<DVec2>, center: DVec2, radius: f64, [from, to]: [f64; 2], edge_length: f64) {
-    let steps = divisions(radius * (to - from).abs(), edge_length, 2);
+    let steps = divisions(radius * (to - from).abs(), edge_length, 2) as u32;
     for i in 0..steps {
         let (sin, cos) = libm::sincos(from + (to - from) * f64::from(i) / f64::from(steps));
         points.push(center + radius * DVec2::new(cos, sin));

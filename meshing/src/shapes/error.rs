@@ -76,12 +76,8 @@ pub(crate) fn require_coordinates(parameter: &'static str, value: DVec3) -> Resu
     Ok(())
 }
 
-/// Refuses an edge length that is no length, or too small for a surface of about `area`.
-pub(crate) fn require_edge_length(edge_length: f64, area: f64) -> Result<(), ShapeError> {
-    require_length("edge_length", edge_length)?;
-    // An equilateral triangle of side 1 has area 0.43; right triangles of grids have 0.5 and rounding of
-    // counts adds some. Relative to the edge length first: no overflow.
-    let triangles = 2.4 * (area / edge_length / edge_length);
+/// Refuses more triangles than [`MAX_SHAPE_TRIANGLES`]; to be asked before anything is allocated.
+pub(crate) fn require_triangles(edge_length: f64, triangles: f64) -> Result<(), ShapeError> {
     if triangles <= f64::from(MAX_SHAPE_TRIANGLES) {
         Ok(())
     } else {
@@ -89,11 +85,10 @@ pub(crate) fn require_edge_length(edge_length: f64, area: f64) -> Result<(), Sha
     }
 }
 
-/// How many edges of about `edge_length` divide `length`: at least `least`. The caller has bounded the area.
-pub(crate) fn divisions(length: f64, edge_length: f64, least: u32) -> u32 {
-    // A cast from f64 saturates; MAX_SHAPE_TRIANGLES bounds the count of a side too.
-    let count = (length / edge_length).ceil().min(f64::from(MAX_SHAPE_TRIANGLES));
-    (count as u32).max(least)
+/// How many edges of at most `edge_length` divide `length`: a whole number, at least `least`, perhaps far beyond
+/// what can be made. Once the triangles are bounded, it can be cast to `u32`.
+pub(crate) fn divisions(length: f64, edge_length: f64, least: u32) -> f64 {
+    (length / edge_length).ceil().max(f64::from(least))
 }
 
 /// The mesh of a soup that a generator made.

@@ -4,7 +4,7 @@
 //! round meets itself after its half turn.
 //! Method: a rectangle swept along a circle.
 
-use super::error::{ShapeError, divisions, require, require_edge_length, require_length};
+use super::error::{ShapeError, divisions, require, require_length, require_triangles};
 use super::sweep::{Sweep, sweep};
 use crate::surface::ClosedOrientedMesh;
 use glam::{DVec2, DVec3};
@@ -72,9 +72,12 @@ fn band(parameters: &Moebius, laps: u32) -> Result<ClosedOrientedMesh, ShapeErro
     require(thickness <= width, "thickness", thickness, "at most the width")?;
     require((-100..=100).contains(&half_turns), "half_turns", f64::from(half_turns), "between -100 and 100")?;
     let length = f64::from(laps) * TAU * radius;
-    require_edge_length(edge_length, length * 2.0 * (width + thickness))?;
+    require_length("edge_length", edge_length)?;
+    let steps = divisions(length, edge_length, 7 * laps);
+    let around = 2.0 * (divisions(width, edge_length, 1) + divisions(thickness, edge_length, 1));
+    require_triangles(edge_length, 2.0 * steps * around)?;
     // An odd number of steps, so that the points of the second lap lie between those of the first.
-    let steps = divisions(length, edge_length, 7 * laps) | 1;
+    let steps = steps as u32 | 1;
     let centers = (0..steps)
         .map(|i| {
             let angle = f64::from(laps) * TAU * f64::from(i) / f64::from(steps);
@@ -90,7 +93,7 @@ fn band(parameters: &Moebius, laps: u32) -> Result<ClosedOrientedMesh, ShapeErro
 /// Points around a rectangle about the origin, counterclockwise; the second half are exact opposites of the first.
 fn rectangle(width: f64, thickness: f64, edge_length: f64) -> Vec<DVec2> {
     let (w, h) = (0.5 * width, 0.5 * thickness);
-    let (along, across) = (divisions(width, edge_length, 1), divisions(thickness, edge_length, 1));
+    let [along, across] = [width, thickness].map(|side| divisions(side, edge_length, 1) as u32);
     let mut half = Vec::new();
     half.extend((0..across).map(|i| DVec2::new(w, -h + thickness * f64::from(i) / f64::from(across))));
     half.extend((0..along).map(|i| DVec2::new(w - width * f64::from(i) / f64::from(along), h)));

@@ -4,7 +4,7 @@
 //! only powers of two) and the grid points are moved out to the sphere. 20 n^2 triangles, 10 n^2 + 2 vertices, of
 //! which 12 have five neighbours and the others six. Edge lengths differ by a factor of up to 1.8 at large `n`.
 
-use super::error::{ShapeError, divisions, finish, require_coordinates, require_edge_length, require_length};
+use super::error::{ShapeError, divisions, finish, require_coordinates, require_length, require_triangles};
 use crate::surface::{ClosedOrientedMesh, TriangleSoup};
 use glam::DVec3;
 
@@ -43,10 +43,11 @@ pub fn sphere(parameters: &Sphere) -> Result<ClosedOrientedMesh, ShapeError> {
     let &Sphere { center, radius, edge_length } = parameters;
     require_coordinates("center", center)?;
     require_length("radius", radius)?;
-    require_edge_length(edge_length, 4.0 * std::f64::consts::PI * radius * radius)?;
+    require_length("edge_length", edge_length)?;
     // Moving out stretches the edges at a face's middle to 1.176 times their share of the angle.
     let frequency = divisions(1.176 * EDGE_ANGLE * radius, edge_length, 1);
-    let mut soup = unit_sphere(frequency);
+    require_triangles(edge_length, 20.0 * frequency * frequency)?;
+    let mut soup = unit_sphere(frequency as u32);
     for position in &mut soup.positions {
         *position = center + radius * *position;
     }

@@ -1,7 +1,7 @@
 //! The torus: [`torus`].
 
 use super::error::{
-    ShapeError, divisions, finish, require, require_coordinates, require_edge_length, require_length,
+    ShapeError, divisions, finish, require, require_coordinates, require_length, require_triangles,
 };
 use super::rings::RingBuilder;
 use crate::surface::ClosedOrientedMesh;
@@ -45,9 +45,11 @@ pub fn torus(parameters: &Torus) -> Result<ClosedOrientedMesh, ShapeError> {
     require_length("radius", radius)?;
     require_length("tube_radius", tube_radius)?;
     require(tube_radius < radius, "tube_radius", tube_radius, "less than the radius of the centre circle")?;
-    require_edge_length(edge_length, TAU * radius * TAU * tube_radius)?;
+    require_length("edge_length", edge_length)?;
     let around = divisions(TAU * radius, edge_length, 3);
     let across = divisions(TAU * tube_radius, edge_length, 3);
+    require_triangles(edge_length, 2.0 * around * across)?;
+    let (around, across) = (around as u32, across as u32);
     let mut rings = RingBuilder::default();
     for i in 0..around {
         let (sin, cos) = libm::sincos(TAU * f64::from(i) / f64::from(around));

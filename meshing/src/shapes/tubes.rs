@@ -3,7 +3,7 @@
 //!
 //! Method: the centre curve is sampled at even arc length and a regular polygon swept along it.
 
-use super::error::{ShapeError, divisions, require, require_edge_length, require_length};
+use super::error::{ShapeError, divisions, require, require_length, require_triangles};
 use super::sweep::{Sweep, sweep};
 use crate::surface::ClosedOrientedMesh;
 use glam::{DVec2, DVec3};
@@ -67,7 +67,7 @@ pub struct HelixOverlap {
     pub tube_radius: f64,
     /// Rise in one turn. Default: 0.35, less than the tube's diameter, so that neighbouring turns overlap.
     pub pitch: f64,
-    /// Number of turns, between 0.1 and 1e6. Default: 3.
+    /// Number of turns, between 0.1 and 1000. Default: 3.
     pub turns: f64,
     /// Distance of neighbouring vertices along and around the tube. Default: 0.07 (about 13,000 triangles).
     pub edge_length: f64,
@@ -96,7 +96,7 @@ pub fn helix_overlap(parameters: &HelixOverlap) -> Result<ClosedOrientedMesh, Sh
     require_length("tube_radius", tube_radius)?;
     require(tube_radius < radius, "tube_radius", tube_radius, "less than the radius of the coil")?;
     require_length("pitch", pitch)?;
-    require((0.1..=1e6).contains(&turns), "turns", turns, "between 0.1 and 1e6")?;
+    require((0.1..=1000.0).contains(&turns), "turns", turns, "between 0.1 and 1000")?;
     let curve = |t: f64| {
         let (sin, cos) = libm::sincos(t * turns * TAU);
         DVec3::new(radius * cos, radius * sin, pitch * turns * (t - 0.5))
@@ -199,10 +199,12 @@ fn tube(
     edge_length: f64,
 ) -> Result<ClosedOrientedMesh, ShapeError> {
     let arc = ArcLength::new(&curve);
-    require_edge_length(edge_length, TAU * radius * arc.length() + TAU * radius * radius)?;
-    let centers = arc.points(&curve, divisions(arc.length(), edge_length, 6), closed);
+    require_length("edge_length", edge_length)?;
+    let along = divisions(arc.length(), edge_length, 6);
     let corners = divisions(TAU * radius, edge_length, 6);
-    sweep(&Sweep { centers, closed, profile: regular_polygon(corners, radius), twist: 0 })
+    require_triangles(edge_length, 2.0 * (along + corners) * corners)?;
+    let centers = arc.points(&curve, along as u32, closed);
+    sweep(&Sweep { centers, closed, profile: regular_polygon(corners as u32, radius), twist: 0 })
 }
 
 /// Corners on a circle, counterclockwise from the first axis.
@@ -221,9 +223,9 @@ pub(crate) struct ArcLength {
     lengths: Vec<f64>,
 }
 
-/// Chords of the table. Positions along the curve need not be exact: a chord is linear in the parameter to about
-/// 1e-6 of the length on the curves of this file.
-const CHORDS: usize = 1 << 14;
+/// Chords of the table: 65 in each of 1000 turns, many more in each bend of the other curves. Positions along the
+/// curve need not be exact, only even.
+const CHORDS: usize = 1 << 16;
 
 impl ArcLength {
     pub(crate) fn new(curve: impl Fn(f64) -> DVec3) -> Self {
