@@ -4,18 +4,21 @@
 //! in each direction, so a closed, oriented surface of polygons gives a closed, oriented surface of triangles. No vertex is
 //! added, moved or merged. A polygon that is simple in the projection along its normal is covered without overlap, whether
 //! convex or not: signs are exact. Does not promise: anything about overlap for a polygon that is not simple there, has
-//! more than [`EAR_CLIPPING_LIMIT`] corners, or has corners not yet read or not finite; those become a fan.
+//! more than [`EAR_CLIPPING_LIMIT`] corners, hides its ears, or has corners not yet read or not finite; those become a fan.
 //!
 //! Method: project along the longest component of the Newell normal [Tampieri92]. Where each triangle of the fan from the
 //! first corner turns as the polygon does, the fan is taken; else ears are clipped [Meisters75], an ear being a corner
 //! that turns with the polygon and whose closed triangle holds no reflex corner.
-//! Complexity: O(n) for a fan, O(n r) for r reflex corners.
+//! Complexity: O(n) for a fan, at most O(n^2) with ears: a polygon whose ears are that well hidden becomes a fan.
 
 use glam::DVec3;
 use welter_predicates::{Sign, orient2d};
 
-/// Largest polygon whose ears are clipped. The quadratic worst case then stays below a second for the largest polygon.
+/// Largest polygon whose ears are clipped: the quadratic worst case stays within a tenth of a second for one polygon.
 const EAR_CLIPPING_LIMIT: usize = 2048;
+/// Corners looked at, at most, as a multiple of n^2: each corner is tried once at first, and two for each ear clipped,
+/// makes 3; the rest is for polygons that are not simple, whose ears have to be sought again.
+const WORK: usize = 6;
 
 /// Scratch space, kept from polygon to polygon.
 #[derive(Default)]
@@ -25,6 +28,9 @@ pub(super) struct Triangulator {
     next: Vec<usize>,
     previous: Vec<usize>,
     reflex: Vec<bool>,
+    ear: Vec<bool>,
+    /// Corners that may still be looked at.
+    work: usize,
 }
 
 impl Triangulator {
@@ -88,9 +94,10 @@ impl Triangulator {
         (2..p.len()).all(|k| orient2d(p[0], p[k - 1], p[k]) == Sign::Positive)
     }
 
-    /// Clips ears until a triangle is left; `false` where none is found.
+    /// Clips ears until a triangle is left; `false` where none is found or the work is more than allowed.
     fn clip_ears(&mut self, corners: &[u32], triangles: &mut Vec<[u32; 3]>) -> bool {
         let n = corners.len();
+        self.work = WORK * n * n;
         self.next.clear();
         self.next.extend((0..n).map(|k| (k + 1) % n));
         self.previous.clear();
@@ -100,46 +107,69 @@ impl Triangulator {
         for k in 0..n {
             self.reflex[k] = self.turn(k) != Sign::Positive;
         }
-        let (mut at, mut left, mut refused) = (1, n, 0);
-        while left > 3 {
-            if self.is_ear(at) {
-                let (before, after) = (self.previous[at], self.next[at]);
-                triangles.push([corners[before], corners[at], corners[after]]);
-                self.next[before] = after;
-                self.previous[after] = before;
-                self.reflex[at] = false;
-                for k in [before, after] {
-                    self.reflex[k] = self.turn(k) != Sign::Positive;
-                }
-                left -= 1;
-                refused = 0;
-                at = after;
-            } else {
-                refused += 1;
-                if refused > left {
-                    return false;
-                }
-                at = self.next[at];
+        self.ear.clear();
+        self.ear.resize(n, false);
+        for k in 0..n {
+            self.ear[k] = self.is_ear(k);
+        }
+        let mut at = 1;
+        for left in (4..=n).rev() {
+            let Some(ear) = self.find_ear(at, left) else { return false };
+            let (before, after) = (self.previous[ear], self.next[ear]);
+            triangles.push([corners[before], corners[ear], corners[after]]);
+            self.next[before] = after;
+            self.previous[after] = before;
+            for k in [before, after] {
+                self.reflex[k] = self.turn(k) != Sign::Positive;
             }
+            for k in [before, after] {
+                self.ear[k] = self.is_ear(k);
+            }
+            at = after;
         }
         triangles.push([corners[self.previous[at]], corners[at], corners[self.next[at]]]);
         true
+    }
+
+    /// The first ear from corner `at` on in a ring of `left` corners.
+    fn find_ear(&mut self, mut at: usize, left: usize) -> Option<usize> {
+        for _ in 0..left {
+            if self.ear[at] {
+                return Some(at);
+            }
+            at = self.next[at];
+        }
+        // Clipping an ear can free only its neighbours in a simple polygon; in another it may have freed any corner.
+        for _ in 0..left {
+            if self.work == 0 {
+                return None;
+            }
+            if self.is_ear(at) {
+                return Some(at);
+            }
+            at = self.next[at];
+        }
+        None
     }
 
     fn turn(&self, k: usize) -> Sign {
         orient2d(self.points[self.previous[k]], self.points[k], self.points[self.next[k]])
     }
 
-    fn is_ear(&self, k: usize) -> bool {
+    fn is_ear(&mut self, k: usize) -> bool {
         if self.reflex[k] {
             return false;
         }
         let [a, b, c] = [self.previous[k], k, self.next[k]].map(|i| self.points[i]);
+        let low = [0, 1].map(|i| a[i].min(b[i]).min(c[i]));
+        let high = [0, 1].map(|i| a[i].max(b[i]).max(c[i]));
         let mut other = self.next[self.next[k]];
         while other != self.previous[k] {
+            self.work = self.work.saturating_sub(1);
             let p = self.points[other];
+            let boxed = low[0] <= p[0] && p[0] <= high[0] && low[1] <= p[1] && p[1] <= high[1];
             // A corner at the same place as one of the ear (the two ends of a slit) does not block it.
-            if self.reflex[other] && p != a && p != b && p != c && covers(a, b, c, p) {
+            if boxed && self.reflex[other] && p != a && p != b && p != c && covers(a, b, c, p) {
                 return false;
             }
             other = self.next[other];

@@ -97,6 +97,25 @@ fn known_shapes_are_covered_from_any_first_corner() {
     }
 }
 
+/// A band along a spiral: few ears at a time, and most corners of one side see nothing of the other.
+#[test]
+fn spirals_are_covered() {
+    let turn = |k: u32, narrower: f64| {
+        let angle = 0.15 * f64::from(k);
+        let radius = 500.0 + 200.0 * angle + 90.0 * f64::from(k % 2) - narrower;
+        [(radius * angle.cos()).round() as i64, (radius * angle.sin()).round() as i64, 0]
+    };
+    let mut corners: Vec<_> = (0..150).map(|k| turn(k, 0.0)).collect();
+    corners.extend((0..150).rev().map(|k| turn(k, 250.0)));
+    for first in [0, 40, 149, 150, 222] {
+        let mut corners = corners.clone();
+        corners.rotate_left(first);
+        assert_covered(&corners, true);
+        corners.reverse();
+        assert_covered(&corners, true);
+    }
+}
+
 #[test]
 fn polygons_without_an_inside_keep_their_boundary() {
     for corners in [
