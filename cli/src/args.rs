@@ -1,6 +1,6 @@
 //! The command line: global options and the list of commands.
 
-use crate::commands::{completions, convert, doctor, info, shape};
+use crate::commands::{check, completions, convert, demo, doctor, info, render, shape};
 use crate::progress::ProgressMode;
 use clap::{Parser, Subcommand, value_parser};
 
@@ -16,7 +16,12 @@ pub(crate) struct Cli {
 
 const AFTER: &str = "\
 Exit codes: 0 ok, 1 own bug, 2 usage, 3 bad geometry, 4 unreadable or unsupported file, 6 would pass the
-memory limit, 7 output cannot be written, 130 interrupted. `welter doctor --codes` lists every error code.";
+memory limit, 7 output cannot be written, 130 interrupted. `welter doctor --codes` lists every error code.
+
+First steps:
+  welter demo                       a self-intersecting surface, checked exactly, with a picture
+  welter check part.stl             is it closed, oriented, and where does it intersect itself?
+  welter check --json *.obj         the same for scripts";
 
 /// Options of every command.
 #[derive(clap::Args, Clone, Debug)]
@@ -48,9 +53,12 @@ pub(crate) struct Global {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    Demo(demo::Args),
     Shape(shape::Args),
+    Check(check::Args),
     Convert(convert::Args),
     Info(info::Args),
+    Render(render::Args),
     Doctor(doctor::Args),
     Completions(completions::Args),
 }

@@ -261,7 +261,9 @@ fn not_understood(name: &Path, format: Format, error: &ReadError) -> Box<Failure
         ReadError::Empty { .. } => return empty(name).place("nothing but white space"),
         ReadError::Encoding { found, .. } if found.starts_with("UTF") => {
             let encoding = found.split(' ').next().unwrap_or("UTF-16");
-            (Code::NotUtf8Text, format!("iconv -f {encoding} -t UTF-8 {word} -o utf8.{}", format.extension()))
+            let stem = name.file_stem().unwrap_or_default().to_string_lossy();
+            let converted = name.with_file_name(format!("{stem}-utf8.{}", format.extension()));
+            (Code::NotUtf8Text, format!("iconv -f {encoding} -t UTF-8 {word} > {}", shell_word(&converted)))
         }
         ReadError::Encoding { found, .. } if found.contains("gzip") => (
             Code::UnsupportedContent,
@@ -302,7 +304,25 @@ fn not_understood(name: &Path, format: Format, error: &ReadError) -> Box<Failure
 
 #[cfg(test)]
 mod tests {
-    use super::edit_distance;
+    use super::*;
+
+    #[test]
+    fn a_disk_that_does_not_deliver_is_told_with_the_byte() {
+        let error = ReadError::Io { offset: 512, source: ErrorKind::TimedOut.into() };
+        let failure = not_understood(Path::new("a.ply"), Format::Ply, &error);
+        assert_eq!((failure.code, failure.places[0].as_str()), (Code::ReadFailed, "a.ply, byte 512"));
+        let failure = cannot_read(Path::new("a.ply"), &ErrorKind::TimedOut.into());
+        assert_eq!(failure.code, Code::ReadFailed);
+    }
+
+    #[test]
+    fn more_elements_than_ids_are_told_with_the_line() {
+        let limits = Limits { max_vertices: 1, ..Limits::default() };
+        let text = &b"v 0 0 0\nv 1 0 0\n"[..];
+        let error = welter_meshing::io::read(Format::Obj, text, &limits).expect_err("one is allowed");
+        let failure = not_understood(Path::new("a.obj"), Format::Obj, &error);
+        assert_eq!((failure.code, failure.places[0].as_str()), (Code::OverCount, "a.obj:2"));
+    }
 
     #[test]
     fn edit_distances() {

@@ -80,3 +80,12 @@ fn not_representable(name: &Path, format: Format, error: &WriteError) -> Box<Fai
         .why(format!("{format} cannot hold this surface"))
         .help(help)
 }
+/// Standard output takes the report, so it cannot take a file too.
+pub(crate) fn refuse_standard_output(output: &Path) -> Result<(), Box<Failure>> {
+    if output == Path::new(STANDARD) {
+        return Err(Failure::new(Code::StandardOutputTaken, "standard output takes the report already")
+            .why("the report and the file would be mixed")
+            .help("name a file"));
+    }
+    Ok(())
+}

@@ -1,7 +1,7 @@
 //! Runs the command in a folder of its own and looks at what it did.
 
 use serde_json::Value;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
@@ -141,4 +141,9 @@ pub(crate) fn permissions_bind(bench: &Bench) -> bool {
     let binds = std::fs::read(&path).is_err();
     std::fs::remove_file(&path).unwrap();
     binds
+}
+/// The folder of real meshes, if it is there.
+pub(crate) fn real_meshes() -> Option<PathBuf> {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data/meshes"));
+    folder.is_dir().then(|| folder.to_owned())
 }

@@ -3,11 +3,16 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 #![allow(clippy::print_stdout, reason = "a test that cannot run here says so")]
 
+mod bad_input;
+mod check;
+mod codes;
 mod convert;
+mod demo;
 mod doctor;
 mod harness;
 mod info;
 mod interrupt;
 mod outputs;
+mod render;
 mod shape;
 mod usage;

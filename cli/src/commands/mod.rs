@@ -1,7 +1,10 @@
 //! The commands, one a file.
 
+pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod convert;
+pub(crate) mod demo;
 pub(crate) mod doctor;
 pub(crate) mod info;
+pub(crate) mod render;
 pub(crate) mod shape;
