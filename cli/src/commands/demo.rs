@@ -165,7 +165,7 @@ fn scene<'a>(
     Scene {
         layers: vec![Layer { highlighted: crossing, style, ..Layer::of(mesh) }],
         size,
-        caption: Caption { title: name.to_owned(), lines },
+        caption: Caption { title: name.to_owned(), lines, ..Caption::default() },
         ..Scene::default()
     }
 }
