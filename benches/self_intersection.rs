@@ -1,3 +1,154 @@
-//! Benchmark: self_intersection.
+//! Benchmark: building a hierarchy of triangles, the pairs of boxes that meet, and the exact list of self-intersections,
+//! on chains of overlapping spheres of 10^4, 10^5 and 10^6 triangles; `parry3d-f64`'s hierarchy on the same boxes beside it.
+//!
+//! ```text
+//! cargo bench -p welter-benches --bench self_intersection [-- LARGEST]
+//! ```
+//! `RAYON_NUM_THREADS` sets the number of threads of ours; parry's build and pairs run on one. Times are the best of
+//! [`RUNS`]; peak memory is the resident size, mesh and process included, where Linux tells it.
 
-fn main() {}
+#![allow(clippy::print_stdout)] // a report is what a benchmark is for
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use glam::DVec3;
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::math::Vector;
+use parry3d_f64::partitioning::{Bvh as ParryBvh, BvhBuildStrategy, BvhWorkspace};
+use welter_meshing::Monitor;
+use welter_meshing::shapes::{Sphere, sphere};
+use welter_meshing::spatial::{Box3, Bvh, Sharing};
+use welter_meshing::surface::{TriId, TriMesh, TriangleSoup};
+
+/// Runs of each measurement.
+const RUNS: usize = 3;
+
+/// Spheres in a chain; so many that 10^6 triangles have about 10^4 intersecting pairs.
+const SPHERES: usize = 8;
+
+/// Triangles of a geodesic sphere of radius 1 and edge length 1, about.
+const TRIANGLES_OF_UNIT_EDGE: f64 = 36.5;
+
+/// A chain of spheres, each overlapping the next, of about so many triangles.
+fn chain(triangles: usize) -> TriMesh {
+    let edge_length = (TRIANGLES_OF_UNIT_EDGE * SPHERES as f64 / triangles as f64).sqrt();
+    let mut soup = TriangleSoup::default();
+    for i in 0..SPHERES {
+        // Irrational steps: no two spheres are translates of each other by a lattice vector.
+        let t = i as f64;
+        let center = DVec3::new(1.1 * t, 0.3 * (1.7 * t).sin(), 0.3 * (2.3 * t).cos());
+        let part = sphere(&Sphere { center, radius: 1.0 + 0.01 * t, edge_length }).expect("valid parameters");
+        let first = soup.positions.len() as u32;
+        soup.positions.extend(part.positions());
+        soup.triangles.extend(part.triangles().iter().map(|t| t.map(|v| first + v.0)));
+    }
+    TriMesh::new(soup).expect("a valid mesh")
+}
+
+fn best<T>(mut run: impl FnMut() -> T) -> (Duration, T) {
+    let mut fastest: Option<(Duration, T)> = None;
+    for _ in 0..RUNS {
+        let start = Instant::now();
+        let result = black_box(run());
+        let time = start.elapsed();
+        if fastest.as_ref().is_none_or(|(best, _)| time < *best) {
+            fastest = Some((time, result));
+        }
+    }
+    fastest.expect("one run at least")
+}
+
+/// A line of /proc/self/status in mebibytes.
+fn status(key: &str) -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find(|line| line.starts_with(key))?;
+    line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kib| kib / 1024.0)
+}
+
+/// Peak resident memory while `run` runs, in mebibytes.
+fn peak_memory(run: impl FnOnce()) -> Option<f64> {
+    // Forgets the peak so far.
+    std::fs::write("/proc/self/clear_refs", "5").ok();
+    run();
+    status("VmHWM:")
+}
+
+struct Row {
+    triangles: usize,
+    build: f64,
+    list: f64,
+}
+
+fn measure(triangles: usize) -> Row {
+    let mesh = chain(triangles);
+    let n = mesh.triangles().len();
+    let nobody = Monitor::none();
+    let memory = peak_memory(|| {
+        let pairs = Bvh::new(&mesh).self_intersections(Sharing::Index, &nobody);
+        black_box(pairs.expect("nobody cancels"));
+    });
+    let (build, bvh) = best(|| Bvh::new(&mesh));
+    let (boxes, meeting) = best(|| bvh.self_pairs(&nobody).expect("nobody cancels").len());
+    let (list, found) =
+        best(|| bvh.self_intersections(Sharing::Index, &nobody).expect("nobody cancels").len());
+    let (refit, _) = best(|| Bvh::refitted(bvh.tree().clone(), &mesh).expect("the same mesh"));
+    drop(bvh);
+    let (build, list) = (build.as_secs_f64(), list.as_secs_f64());
+    println!("{n} triangles, {meeting} pairs of meeting boxes, {found} intersecting pairs");
+    println!("  welter  build {build:9.4} s   boxes {:9.4} s   refit {:9.4} s", secs(boxes), secs(refit));
+    println!(
+        "  welter  exact list {list:9.4} s   build + list {:9.4} s   {:.3e} box pairs/s",
+        build + list,
+        meeting as f64 / list
+    );
+    if let Some(peak) = memory {
+        println!("  welter  peak memory {peak:.0} MiB, mesh included");
+    }
+    for (name, strategy) in [("binned", BvhBuildStrategy::Binned), ("ploc", BvhBuildStrategy::Ploc)] {
+        let leaves: Vec<Aabb> = (0..n as u32).map(|t| aabb(Box3::of(mesh.corners(TriId(t))))).collect();
+        let (parry_build, parry) = best(|| ParryBvh::from_leaves(strategy, &leaves));
+        let mut workspace = BvhWorkspace::default();
+        let (parry_pairs, count) = best(|| {
+            let mut count = 0usize;
+            parry.traverse_bvtt_single_tree::<false>(&mut workspace, &mut |_, _| count += 1);
+            count
+        });
+        println!(
+            "  parry ({name:6}) build {:9.4} s   boxes {:9.4} s   {count} pairs",
+            secs(parry_build),
+            secs(parry_pairs)
+        );
+    }
+    Row { triangles: n, build, list }
+}
+
+fn secs(time: Duration) -> f64 {
+    time.as_secs_f64()
+}
+
+fn aabb(b: Box3) -> Aabb {
+    let vector = |p: DVec3| Vector::new(p.x, p.y, p.z);
+    Aabb::new(vector(b.min), vector(b.max))
+}
+
+fn main() {
+    // `cargo bench` passes flags of its own; a bare number is the largest size.
+    let largest = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(1_000_000);
+    let sizes = [10_000, 100_000, 1_000_000].into_iter().filter(|&size| size <= largest);
+    println!("{} threads", rayon::current_num_threads());
+    let rows: Vec<Row> = sizes.map(measure).collect();
+    if let [first, .., last] = &rows[..] {
+        let exponent = |value: fn(&Row) -> f64| {
+            (value(last) / value(first)).ln() / (last.triangles as f64 / first.triangles as f64).ln()
+        };
+        println!(
+            "growth exponents from {} to {}: build {:.2}, list {:.2}, both {:.2}",
+            first.triangles,
+            last.triangles,
+            exponent(|row| row.build),
+            exponent(|row| row.list),
+            exponent(|row| row.build + row.list)
+        );
+    }
+}

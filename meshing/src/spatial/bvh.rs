@@ -12,6 +12,8 @@
 //! # Complexity
 //! Build O(n log n), refit O(n), O(log n + k) a query in practice.
 
+use welter_predicates::intersection::triangle_intersects_box;
+
 use super::{Box3, BoxTree};
 use crate::surface::{TriId, TriMesh};
 use crate::{Cancelled, Monitor};
@@ -126,6 +128,14 @@ impl<'m> Bvh<'m> {
             }
         });
         found.sort_unstable();
+        found
+    }
+
+    /// The triangles that meet the closed box `query`, ascending. Exact, by predicates.
+    #[must_use]
+    pub fn triangles_meeting(&self, query: &Box3) -> Vec<TriId> {
+        let mut found = self.boxes_meeting(query);
+        found.retain(|&t| triangle_intersects_box(self.mesh.corners(t), query.min, query.max));
         found
     }
 }

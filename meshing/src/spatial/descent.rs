@@ -100,25 +100,35 @@ impl Descent<'_> {
         self.left.bvh.nodes[i as usize].is_leaf() && self.right.bvh.nodes[j as usize].is_leaf()
     }
 
-    /// Replaces a task of which one node is not a leaf by its parts.
+    /// Replaces a task of which one node is not a leaf by its parts: of two inner nodes both are split, which keeps
+    /// their sizes alike and takes half the steps of splitting the larger one.
     #[inline]
     fn expand(&self, (i, j): Task, out: &mut Vec<Task>) {
         let (a, b) = (&self.left.bvh.nodes[i as usize], &self.right.bvh.nodes[j as usize]);
         if self.same && i == j {
-            let (l, r) = (a.first_index, a.first_index + 1);
-            let nodes = &self.left.bvh.nodes;
-            out.extend([l, r].into_iter().filter(|&c| !nodes[c as usize].is_leaf()).map(|c| (c, c)));
-            if overlap(nodes[l as usize].aabb(), nodes[r as usize].aabb()) {
-                out.push((l, r));
+            let [l, r] = children(self.left, a);
+            out.extend([l, r].into_iter().filter(|(_, child)| !child.is_leaf()).map(|(c, _)| (c, c)));
+            if overlap(l.1.aabb(), r.1.aabb()) {
+                out.push((l.0, r.0));
             }
-        } else if b.is_leaf() || (!a.is_leaf() && size(a) >= size(b)) {
-            let children = [a.first_index, a.first_index + 1];
-            let meets = |&c: &u32| overlap(self.left.bvh.nodes[c as usize].aabb(), b.aabb());
-            out.extend(children.into_iter().filter(meets).map(|c| (c, j)));
+        } else if b.is_leaf() {
+            let meeting =
+                children(self.left, a).into_iter().filter(|(_, child)| overlap(child.aabb(), b.aabb()));
+            out.extend(meeting.map(|(c, _)| (c, j)));
+        } else if a.is_leaf() {
+            let meeting =
+                children(self.right, b).into_iter().filter(|(_, child)| overlap(a.aabb(), child.aabb()));
+            out.extend(meeting.map(|(c, _)| (i, c)));
         } else {
-            let children = [b.first_index, b.first_index + 1];
-            let meets = |&c: &u32| overlap(self.right.bvh.nodes[c as usize].aabb(), a.aabb());
-            out.extend(children.into_iter().filter(meets).map(|c| (i, c)));
+            let [l, r] = children(self.right, b);
+            for (c, child) in children(self.left, a) {
+                if overlap(child.aabb(), l.1.aabb()) {
+                    out.push((c, l.0));
+                }
+                if overlap(child.aabb(), r.1.aabb()) {
+                    out.push((c, r.0));
+                }
+            }
         }
     }
 
@@ -152,8 +162,10 @@ impl Descent<'_> {
     }
 }
 
-/// What decides which of two nodes is split: the larger one, so that both shrink together.
+/// The children of an inner node, with their indices.
 #[inline]
-fn size(node: &Bvh2Node) -> f32 {
-    node.aabb().half_area()
+fn children<'t>(tree: &'t BoxTree, node: &Bvh2Node) -> [(u32, &'t Bvh2Node); 2] {
+    let first = node.first_index;
+    let pair = &tree.bvh.nodes[first as usize..first as usize + 2];
+    [(first, &pair[0]), (first + 1, &pair[1])]
 }

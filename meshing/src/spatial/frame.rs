@@ -28,38 +28,125 @@ use super::Box3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Frame {
     center: DVec3,
-    scale: [f64; 2],
+    /// Largest distance of the scene from its center along an axis.
+    half: f64,
+    scale: Scale,
 }
 
 impl Frame {
-    #[cfg(test)]
     /// Bound on the distance of a mapped coordinate of the scene from its exact place in the frame.
     pub(crate) const ERROR: f64 = 1.0 / (1 << 24) as f64;
 
     /// The frame of the smallest box around the scene; any frame will do for an empty scene.
     pub(crate) fn of(scene: Box3) -> Self {
         if scene.is_empty() {
-            return Self { center: DVec3::ZERO, scale: [1.0; 2] };
+            return Self { center: DVec3::ZERO, half: 0.0, scale: Scale::shrinking(0.0) };
         }
         // Halves first: a sum or difference of the corners may overflow.
         let center = scene.min * 0.5 + scene.max * 0.5;
         // Not half of the difference, which rounds to zero for the smallest numbers.
         let half = (scene.max - center).max(center - scene.min).max_element();
-        let exponent = if half > 0.0 { -(binary_exponent(half) + 2) } else { 0 };
-        let first = exponent / 2;
-        Self { center, scale: [power_of_two(first), power_of_two(exponent - first)] }
+        Self { center, half, scale: Scale::shrinking(half) }
     }
 
     /// The place of `point` in the frame before rounding to `f32`; may be infinite outside of the scene.
     #[inline]
     pub(crate) fn place(&self, point: DVec3) -> DVec3 {
-        (point - self.center) * self.scale[0] * self.scale[1]
+        self.scale.apply(point - self.center)
     }
 
     /// The mapped point.
     #[inline]
     pub(crate) fn map(&self, point: DVec3) -> [f32; 3] {
         self.place(point).to_array().map(|x| x as f32)
+    }
+}
+
+/// Coordinates relative to a point in which the scene has size one: what distances to the scene are computed in.
+///
+/// Differences to the point are rounded to nearest, once, and then scaled exactly; nothing overflows, and what
+/// underflows is below 2^-1000 of the larger of the scene and its distance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Local {
+    origin: DVec3,
+    /// Differences are taken of halves where they might overflow otherwise.
+    halved: bool,
+    scale: Scale,
+    frame_scale: Scale,
+}
+
+impl Frame {
+    /// Coordinates relative to a finite `origin`.
+    pub(crate) fn about(&self, origin: DVec3) -> Local {
+        /// Where a sum of two still does not overflow.
+        const LARGE: f64 = f64::MAX / 16.0;
+        let far = (origin - self.center).abs().max_element().max(self.half);
+        let halved = far > LARGE;
+        let far = if halved {
+            (origin * 0.5 - self.center * 0.5).abs().max_element().max(self.half * 0.5)
+        } else {
+            far
+        };
+        Local { origin, halved, scale: Scale::shrinking(far), frame_scale: self.scale }
+    }
+}
+
+impl Local {
+    /// A point of the scene relative to the origin; coordinates in [-1, 1].
+    #[inline]
+    pub(crate) fn place(&self, point: DVec3) -> DVec3 {
+        let difference = if self.halved { point * 0.5 - self.origin * 0.5 } else { point - self.origin };
+        self.scale.apply(difference)
+    }
+
+    /// The point at a place.
+    pub(crate) fn point_at(&self, place: DVec3) -> DVec3 {
+        let difference = self.scale.undo(place);
+        if self.halved { (self.origin * 0.5 + difference) * 2.0 } else { self.origin + difference }
+    }
+
+    /// A length in the scene's unit; infinite beyond the largest number.
+    pub(crate) fn length(&self, length: f64) -> f64 {
+        let length = self.scale.undo(DVec3::splat(length)).x;
+        if self.halved { length * 2.0 } else { length }
+    }
+
+    /// A length in the unit of the frame that this was made of; infinite where its unit is very much smaller.
+    pub(crate) fn length_in_frame(&self, length: f64) -> f64 {
+        // Not by way of the scene's unit, in which a length may be rounded to zero.
+        let exponent = self.frame_scale.exponent - self.scale.exponent + i32::from(self.halved);
+        match exponent {
+            ..=1023 => length * power_of_two(exponent.max(-1022)),
+            _ if length == 0.0 => 0.0,
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+/// Multiplication by a power of two that may be out of the range of `f64`, as two factors of the normal range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scale {
+    exponent: i32,
+    factors: [f64; 2],
+    inverse: [f64; 2],
+}
+
+impl Scale {
+    /// The factor `2^k` that takes `size` to [1/4, 1/2).
+    pub(crate) fn shrinking(size: f64) -> Self {
+        let exponent = if size > 0.0 { -(binary_exponent(size) + 2) } else { 0 };
+        let parts = [exponent / 2, exponent - exponent / 2];
+        Self { exponent, factors: parts.map(power_of_two), inverse: parts.map(|part| power_of_two(-part)) }
+    }
+
+    #[inline]
+    pub(crate) fn apply(&self, v: DVec3) -> DVec3 {
+        v * self.factors[0] * self.factors[1]
+    }
+
+    #[inline]
+    fn undo(&self, v: DVec3) -> DVec3 {
+        v * self.inverse[0] * self.inverse[1]
     }
 }
 

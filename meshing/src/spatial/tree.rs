@@ -72,8 +72,27 @@ impl std::fmt::Debug for BoxTree {
     }
 }
 
+/// Bit for bit the same hierarchy.
+impl PartialEq for BoxTree {
+    fn eq(&self, other: &Self) -> bool {
+        let same = |a: &Bvh2Node, b: &Bvh2Node| {
+            let bits = |v: Vec3A| v.to_array().map(f32::to_bits);
+            let corners = |n: &Bvh2Node| [bits(n.aabb().min), bits(n.aabb().max)];
+            (a.prim_count, a.first_index, corners(a)) == (b.prim_count, b.first_index, corners(b))
+        };
+        let (a, b) = (&self.bvh, &other.bvh);
+        self.frame == other.frame
+            && a.primitive_indices == b.primitive_indices
+            && a.nodes.len() == b.nodes.len()
+            && a.nodes.iter().zip(&b.nodes).all(|(a, b)| same(a, b))
+    }
+}
+
 impl BoxTree {
     /// Builds the hierarchy of `boxes`: finite, not empty.
+    ///
+    /// # Panics
+    /// From 2^31 boxes on (100 GB of nodes).
     #[must_use]
     pub fn new(boxes: &[Box3]) -> Self {
         Self::over(boxes.len(), |i| boxes[i])
@@ -81,6 +100,7 @@ impl BoxTree {
 
     /// Builds the hierarchy of `count` boxes given by number.
     pub(crate) fn over(count: usize, box_of: impl Fn(usize) -> Box3 + Sync) -> Self {
+        assert!(count < 1 << 31, "nodes are numbered by 32 bits");
         let frame = Frame::of(scene(count, &box_of));
         let leaves = map_boxes(&frame, count, &box_of);
         let shown: Vec<Aabb> = leaves.par_iter().enumerate().with_min_len(CHUNK).map(displaced).collect();

@@ -11,6 +11,7 @@
 mod closed_oriented;
 mod duplicates;
 mod edges;
+mod embedded;
 mod ids;
 mod list;
 pub mod measure;
@@ -20,6 +21,7 @@ mod tri_mesh;
 
 pub use closed_oriented::{ClosedOrientedDefects, ClosedOrientedError, ClosedOrientedMesh, EdgeDefect};
 pub use duplicates::{degenerate_triangles, duplicate_triangles, duplicate_vertices};
+pub use embedded::{EmbeddedError, EmbeddedMesh, SelfIntersections};
 pub use ids::{EdgeId, TriId, VertexId};
 pub use soup::{Group, TriangleSoup};
 pub use topology::{BoundaryLoop, Component, Topology};

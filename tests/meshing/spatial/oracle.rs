@@ -2,33 +2,44 @@
 
 use rug::Integer;
 use welter_kit::exact::{lift, linear::primitive, meeting};
+use welter_meshing::spatial::Sharing;
 use welter_meshing::surface::{TriId, TriMesh};
 
-/// All pairs of triangles that meet in more than the vertex or edge that they share by index, found by intersecting
-/// every two triangles exactly.
-pub(crate) fn self_intersections(mesh: &TriMesh) -> Vec<[TriId; 2]> {
+/// All pairs of triangles that meet in more than the vertex or edge that they share, found by intersecting every two
+/// triangles exactly.
+pub(crate) fn self_intersections(mesh: &TriMesh, sharing: Sharing) -> Vec<[TriId; 2]> {
     let count = mesh.triangles().len() as u32;
     (0..count)
         .flat_map(|i| (i + 1..count).map(move |j| [TriId(i), TriId(j)]))
-        .filter(|&pair| meet_in_more(mesh, pair))
+        .filter(|&pair| meet_in_more(mesh, pair, sharing))
         .collect()
 }
 
 /// Whether one pair of triangles meets in more than it shares.
-pub(crate) fn meet_in_more(mesh: &TriMesh, [i, j]: [TriId; 2]) -> bool {
+pub(crate) fn meet_in_more(mesh: &TriMesh, [i, j]: [TriId; 2], sharing: Sharing) -> bool {
     let corners = |t: TriId| mesh.corners(t).map(|p| p.to_array());
-    let (s, t) = (mesh.triangles()[i.index()], mesh.triangles()[j.index()]);
-    let shared: Vec<usize> = (0..3).filter(|&k| t.contains(&s[k])).collect();
-    let found = meeting(&corners(i), &corners(j));
     // The same integers as inside of `meeting`.
     let lifted = lift(&[corners(i), corners(j)].concat());
+    let (s, t) = (mesh.triangles()[i.index()], mesh.triangles()[j.index()]);
+    let same = |k: usize, l: usize| match sharing {
+        Sharing::Index => s[k] == t[l],
+        Sharing::Position => lifted[k] == lifted[3 + l],
+    };
+    let mut shared: Vec<&[Integer; 3]> =
+        (0..3).filter(|&k| (0..3).any(|l| same(k, l))).map(|k| &lifted[k]).collect();
+    if sharing == Sharing::Position {
+        shared.dedup();
+    }
     let outside = |point: &[Integer]| match shared[..] {
         [] => true,
-        [v] => !in_segment(point, &lifted[v], &lifted[v]),
-        [u, v] => !in_segment(point, &lifted[u], &lifted[v]),
-        _ => unreachable!("handled below"),
+        [v] => !in_segment(point, v, v),
+        [u, v] => !in_segment(point, u, v),
+        // Of a collapsed triangle the first and the last corner may be the same.
+        [u, v, w] => sharing == Sharing::Index || u != w || !in_segment(point, u, v),
+        _ => unreachable!("a triangle has three corners"),
     };
-    shared.len() == 3 || found.corners.iter().any(|corner| outside(&corner.point))
+    let all_by_index = sharing == Sharing::Index && shared.len() == 3;
+    all_by_index || meeting(&corners(i), &corners(j)).corners.iter().any(|corner| outside(&corner.point))
 }
 
 /// Whether a point in homogeneous coordinates lies in the closed segment `uv`.
