@@ -1,8 +1,11 @@
 //! Benchmark of the predicates beside `robust` and `geometry-predicates`, on the same inputs in the same run.
 //!
-//! Prints, for each predicate and class of input, the time of each library (median over interleaved passes), the
-//! ratio to the faster peer (median of the ratios within a pass, so that a busy machine cancels), the share of
-//! the evaluations that each stage settled, and how many signs the peers got wrong.
+//! Prints, for each predicate and class of input, the time of each library, its ratio to `robust` and to the faster
+//! peer, the share of the evaluations that each stage settled, and how many signs the peers got wrong.
+//!
+//! The libraries take turns on chunks of the inputs, and of each chunk and library the shortest time over all rounds
+//! counts: on a busy machine that is the time without the interruptions. A round visits all chunks before any
+//! is repeated, so that branch predictors do not learn them.
 //!
 //! `cargo bench -p welter-benches --bench predicates [-- FILTER [--quick]]`
 
@@ -17,6 +20,8 @@ use welter_predicates::{Sign, Stage, staged};
 
 /// Distinct inputs per class: too many for a branch predictor to learn.
 const COUNT: usize = 32768;
+/// Inputs timed at a time: microseconds, so that most chunks are not interrupted.
+const CHUNK: usize = 512;
 
 /// One evaluation.
 type Evaluate<const N: usize, const P: usize> = fn(&[[f64; N]; P]) -> Sign;
@@ -48,7 +53,7 @@ fn main() {
         "{:9} {:18} {:>9} {:>9} {:>9} {:>7} {:>7}   settled by stage, wrong signs of the peers",
         "", "", "ours ns", "robust", "geom-pred", "/robust", "/faster"
     );
-    let rounds = if quick { 5 } else { 41 };
+    let rounds = if quick { 5 } else { 25 };
 
     run(
         filter,
@@ -169,44 +174,35 @@ fn run<const N: usize, const P: usize>(filter: &str, rounds: usize, family: &Fam
             &inputs[..]
         };
         let passes = [Some(family.ours), family.robust, family.geometry_predicates];
-        let mut times: [Vec<f64>; 3] = Default::default();
-        for round in 0..=rounds {
-            for (pass, times) in passes.iter().zip(&mut times) {
-                if let Some(pass) = pass {
-                    let ns = time(*pass, timed);
-                    // The first round warms the caches.
-                    if round > 0 {
-                        times.push(ns);
+        let mut times =
+            passes.map(|pass| pass.map_or(Vec::new(), |_| vec![f64::INFINITY; timed.len().div_ceil(CHUNK)]));
+        for _ in 0..rounds {
+            for (i, chunk) in timed.chunks(CHUNK).enumerate() {
+                for (pass, times) in passes.iter().zip(&mut times) {
+                    if let Some(pass) = pass {
+                        times[i] = times[i].min(time(*pass, chunk));
                     }
                 }
             }
         }
+        let times = times.map(|t| t.iter().sum::<f64>() / timed.len() as f64);
         report(family, class, &inputs, &times);
     }
 }
 
+/// Nanoseconds of one pass.
 fn time<const N: usize, const P: usize>(pass: Pass<N, P>, inputs: &[[[f64; N]; P]]) -> f64 {
     let start = Instant::now();
     black_box(pass(black_box(inputs)));
-    start.elapsed().as_nanos() as f64 / inputs.len() as f64
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+    start.elapsed().as_nanos() as f64
 }
 
 fn report<const N: usize, const P: usize>(
     family: &Family<N, P>,
     class: Class,
     inputs: &[[[f64; N]; P]],
-    [ours, robust, geometry]: &[Vec<f64>; 3],
+    [ours, robust, geometry]: &[f64; 3],
 ) {
-    let ratio = |peer: &dyn Fn(usize) -> f64| {
-        median((0..ours.len().min(robust.len())).map(|i| ours[i] / peer(i)).collect())
-    };
-    let to_robust = ratio(&|i| robust[i]);
-    let to_faster = ratio(&|i| robust[i].min(geometry[i]));
     let results: Vec<(Sign, Stage)> = inputs.iter().map(family.staged).collect();
     let stages: Vec<String> = Stage::ALL
         .iter()
@@ -222,17 +218,18 @@ fn report<const N: usize, const P: usize>(
         [Some(0), Some(0)] | [None, _] | [_, None] => String::new(),
         [Some(r), Some(g)] => format!("; wrong of {}: robust {r}, geometry-predicates {g}", inputs.len()),
     };
-    let number = |x: f64| if x.is_nan() { "-".to_string() } else { format!("{x:.1}") };
-    let ratio = |x: f64| if x.is_nan() { "-".to_string() } else { format!("{x:.3}") };
+    let figure = |x: f64, digits: usize| {
+        if x > 0.0 && x.is_finite() { format!("{x:.digits$}") } else { "-".to_string() }
+    };
     println!(
         "{:9} {:18} {:>9} {:>9} {:>9} {:>7} {:>7}   {}{wrong}",
         family.name,
         class.name(),
-        number(median(ours.clone())),
-        number(median(robust.clone())),
-        number(median(geometry.clone())),
-        ratio(to_robust),
-        ratio(to_faster),
+        figure(*ours, 1),
+        figure(*robust, 1),
+        figure(*geometry, 1),
+        figure(ours / robust, 3),
+        figure(ours / robust.min(*geometry), 3),
         stages.join(" "),
     );
 }

@@ -3,8 +3,9 @@
 use crate::arithmetic::double_double::{self, DoubleDoubles, Magnitude, Magnitudes, Scale};
 use crate::arithmetic::expansion::{self, Expansion, Expansions};
 use crate::arithmetic::fixed_point;
-use crate::arithmetic::lattice::{Lattice, Words};
+use crate::arithmetic::lattice::{Extent, Lattice, Words};
 use crate::arithmetic::scaled::Exact;
+use crate::arithmetic::small::{self, Small};
 use crate::polynomial::Ring;
 use crate::{Sign, stats};
 
@@ -135,8 +136,14 @@ where
     Q: Predicate<N, P, R>,
     A: Answer,
 {
-    let lattice = Lattice::of(points)?;
-    let value = Q::polynomial::<Words>(&lattice.rows());
+    let extent = Extent::of(points)?;
+    if let Some((unit, rows)) = small::rows(points, extent, Q::DEGREE) {
+        let value = Q::polynomial::<Small>(&rows);
+        return Some(A::of_exact(&value, Q::DEGREE * unit));
+    }
+    let lattice = Lattice::of(points, extent)?;
+    let rows = lattice.rows();
+    let value = Q::polynomial::<Words>(&rows);
     Some(A::of_exact(&value, Q::DEGREE * lattice.exponent))
 }
 

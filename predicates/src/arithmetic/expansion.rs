@@ -29,6 +29,9 @@ pub(crate) struct Expansion<const CAP: usize> {
 
 const OVERFULL: usize = usize::MAX;
 
+/// From how many components on a result is compressed: fewer cost less in the next product than to compress.
+const MANY: usize = 8;
+
 impl<const CAP: usize> Expansion<CAP> {
     pub(crate) const ZERO: Self = Self { components: [0.0; CAP], len: 0 };
 
@@ -130,25 +133,35 @@ impl<const CAP: usize> Expansion<CAP> {
         result
     }
 
-    /// `a * b`, compressed.
+    /// `a * b`.
     pub(crate) fn product<const A: usize, const B: usize>(a: &Expansion<A>, b: &Expansion<B>) -> Self {
         let mut result = Self::ZERO;
         if a.is_overfull() || b.is_overfull() {
             result.len = OVERFULL;
             return result;
         }
-        for &y in b.components() {
-            result = Self::sum(&result, &Self::scaled_by(a, y)).compressed();
+        let Some((&first, rest)) = b.components().split_first() else { return result };
+        result = Self::scaled_by(a, first);
+        for &y in rest {
+            result = Self::sum(&result, &Self::scaled_by(a, y));
+            result.shorten();
         }
         result
     }
 
+    /// Compresses if there is little room left, or enough components for it to pay.
+    #[inline(always)]
+    fn shorten(&mut self) {
+        if self.components().len() > (CAP / 2).min(MANY) {
+            self.compress();
+        }
+    }
+
     /// The same number in about as few components as it needs, the last of which nearly equals it.
-    #[must_use]
-    pub(crate) fn compressed(mut self) -> Self {
+    pub(crate) fn compress(&mut self) {
         let n = self.components().len();
         if n < 2 {
-            return self;
+            return;
         }
         // From the largest down: what each partial sum leaves over moves on, finished parts gather at the end.
         let mut running = self.components[n - 1];
@@ -171,7 +184,6 @@ impl<const CAP: usize> Expansion<CAP> {
             self.push(h);
         }
         self.push(running);
-        self
     }
 }
 
@@ -219,7 +231,9 @@ impl Ring for Expansions {
 
 impl<const CAP: usize> Additive for Expansion<CAP> {
     fn plus(&self, other: &Self) -> Self {
-        Self::sum(self, other).compressed()
+        let mut result = Self::sum(self, other);
+        result.shorten();
+        result
     }
     fn minus(&self, other: &Self) -> Self {
         self.plus(&other.negated())
@@ -294,7 +308,8 @@ mod tests {
     #[test]
     fn compression_keeps_the_sum() {
         let wide = of(&[1.0, power_of_two(-60), power_of_two(-61), power_of_two(-62), -power_of_two(-300)]);
-        let compressed = wide.compressed();
+        let mut compressed = wide;
+        compressed.compress();
         assert!(compressed.components().len() <= 3);
         assert_eq!(wide.minus(&compressed).sign(), Some(Sign::Zero));
         assert_eq!(*compressed.components().last().expect("not zero"), 1.0);

@@ -9,21 +9,59 @@
 //! a minor of three rows below 2^189 ([`Wide`] of 3 words), the sums of degree 4 and 5 below 2^253 and 2^317
 //! (4 and 5 words). The tests recompute these sizes with the polynomials themselves.
 
-use super::scaled::{Exact, Scaled};
+use super::scaled::{Exact, Scaled, power_of_two};
 use super::wide::Wide;
 use crate::Sign;
 use crate::polynomial::{Additive, Ring, Times};
 
-/// Binary places below the leading bit of the largest coordinate.
-const WINDOW: u32 = 61;
-/// Places that the window has beyond a mantissa.
-const GUARD: u32 = WINDOW - f64::MANTISSA_DIGITS;
+/// Coordinates are scaled to magnitudes below `2^WINDOW`, and must then be integers.
+const WINDOW: i32 = 61;
 
-const SIGN_BIT: u64 = 1 << 63;
-const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
-/// Biased exponent of infinities and NaN.
-const NOT_FINITE: u64 = 0x7ff;
-const FRACTION: u64 = (1 << FRACTION_BITS) - 1;
+/// Added to a number below 2^61, this leaves a multiple of 2^10, the bits of the sum count it.
+const COARSE: f64 = 1.5 * (1u64 << 62) as f64;
+const COARSE_PLACES: u32 = 10;
+/// Added to the rest, at most 2^9, this leaves an integer.
+pub(crate) const FINE: f64 = 1.5 * (1u64 << 52) as f64;
+
+/// The larger of two numbers, in one instruction.
+#[inline(always)]
+fn max(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The exponent `t` of the largest coordinate: all are below `2^(t + 1)` in magnitude.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Extent(i32);
+
+/// Below this, an extent would make the scale overflow: tinier coordinates are scaled like these, and then are no
+/// integers unless they are zero.
+const LEAST_EXTENT: i32 = -930;
+
+impl Extent {
+    /// `None` if a coordinate is not finite, or all together overflow.
+    #[inline(always)]
+    pub(crate) fn of<const N: usize>(points: &[[f64; N]]) -> Option<Self> {
+        // Four short chains of dependent operations.
+        let mut maxima = [0.0; 4];
+        let mut sums = [0.0; 4];
+        for (k, x) in points.as_flattened().iter().enumerate() {
+            let magnitude = x.abs();
+            sums[k % 4] += magnitude;
+            maxima[k % 4] = max(magnitude, maxima[k % 4]);
+        }
+        // The sum is infinite or NaN if a coordinate is.
+        let sum: f64 = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+        let largest: f64 = max(max(maxima[0], maxima[1]), max(maxima[2], maxima[3]));
+        let top = (largest.to_bits() >> 52) as i32 - 1023;
+        sum.is_finite().then_some(Self(top.max(LEAST_EXTENT)))
+    }
+
+    /// The power of two that brings the largest coordinate below `2^bits`.
+    #[inline(always)]
+    pub(crate) fn shift(self, bits: i32) -> i32 {
+        bits - 1 - self.0
+    }
+}
 
 /// The coordinates in a common unit `2^exponent`.
 pub(crate) struct Lattice<const N: usize, const P: usize> {
@@ -32,37 +70,41 @@ pub(crate) struct Lattice<const N: usize, const P: usize> {
 }
 
 impl<const N: usize, const P: usize> Lattice<N, P> {
-    /// The lattice of `points`; `None` if their bits do not lie within the window or one is not finite.
+    /// The lattice of `points`; `None` if their bits do not lie within the window.
+    ///
+    /// Conversion is by sums and differences alone, which run in pairs on any machine.
     #[inline(always)]
-    pub(crate) fn of(points: &[[f64; N]; P]) -> Option<Self> {
-        let mut largest = 0;
-        for x in points.as_flattened() {
-            largest = largest.max(x.to_bits() & !SIGN_BIT);
-        }
-        // Subnormal numbers have the exponent of the smallest normal ones.
-        let top = (largest >> FRACTION_BITS).max(1);
+    pub(crate) fn of(points: &[[f64; N]; P], extent: Extent) -> Option<Self> {
+        let shift = extent.shift(WINDOW);
+        let (scale, inverse) = (power_of_two(shift), power_of_two(-shift));
+        let mut integers = [[0; N]; P];
         let mut lost = 0;
-        let points = points.map(|point| {
-            point.map(|x| {
-                let bits = x.to_bits();
-                let biased = (bits & !SIGN_BIT) >> FRACTION_BITS;
-                let normal = u64::from(biased != 0);
-                let mantissa = ((bits & FRACTION) | (normal << FRACTION_BITS)) << GUARD;
-                let shift = (top - biased - (1 - normal)).min(63);
-                let magnitude = mantissa >> shift;
-                lost |= (magnitude << shift) ^ mantissa;
-                let negative = (bits as i64) >> 63;
-                (magnitude as i64 ^ negative) - negative
-            })
-        });
-        let exponent = top as i32 - 1 + f64::MIN_EXP - f64::MANTISSA_DIGITS as i32 - GUARD as i32;
-        (lost == 0 && top < NOT_FINITE).then_some(Self { exponent, points })
+        for (integer, &x) in integers.as_flattened_mut().iter_mut().zip(points.as_flattened()) {
+            let scaled = x * scale;
+            let coarse = scaled + COARSE;
+            let rest = scaled - (coarse - COARSE);
+            let fine = rest + FINE;
+            // Bits below the unit, and bits that the scaling lost to underflow.
+            lost |= (fine - FINE).to_bits() ^ rest.to_bits();
+            lost |= (scaled * inverse).to_bits() ^ x.to_bits();
+            let high = coarse.to_bits().wrapping_sub(COARSE.to_bits()) << COARSE_PLACES;
+            let low = fine.to_bits().wrapping_sub(FINE.to_bits());
+            *integer = high.wrapping_add(low) as i64;
+        }
+        // Zeros of either sign are the same.
+        (lost << 1 == 0).then_some(Self { exponent: -shift, points: integers })
     }
 
     /// Differences of the first points to the last one.
     #[inline(always)]
     pub(crate) fn rows<const R: usize>(&self) -> [[i64; N]; R] {
-        core::array::from_fn(|i| core::array::from_fn(|j| self.points[i][j] - self.points[P - 1][j]))
+        let mut rows = [[0; N]; R];
+        for (row, point) in rows.iter_mut().zip(&self.points) {
+            for j in 0..N {
+                row[j] = point[j] - self.points[P - 1][j];
+            }
+        }
+        rows
     }
 }
 
@@ -159,7 +201,6 @@ impl Exact for Wide<5> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::scaled::power_of_two;
     use super::*;
     use crate::polynomial;
 
@@ -205,22 +246,37 @@ mod tests {
         assert!(fits(Size(3.0), 2, 2));
     }
 
-    #[test]
-    fn window_is_61_places() {
-        let lattice = Lattice::of(&[[1.0, -3.0], [power_of_two(-59), 0.0]]).expect("inside");
-        assert_eq!(lattice.exponent, 1 - 60);
-        assert_eq!(lattice.points, [[1 << 59, -3 << 59], [1, 0]]);
-        assert!(Lattice::of(&[[1.0, -3.0], [power_of_two(-60), 0.0]]).is_none());
-        assert!(Lattice::of(&[[f64::MAX], [f64::from_bits(1)]]).is_none());
-        assert!(Lattice::of(&[[f64::INFINITY], [1.0]]).is_none());
-        assert!(Lattice::of(&[[f64::NAN, f64::MAX]]).is_none());
+    fn lattice<const N: usize, const P: usize>(points: [[f64; N]; P]) -> Option<Lattice<N, P>> {
+        Lattice::of(&points, Extent::of(&points)?)
     }
 
     #[test]
-    fn subnormals_are_integers_too() {
-        let tiny = f64::from_bits(1);
-        let lattice = Lattice::of(&[[tiny, -tiny], [f64::MIN_POSITIVE, 0.0]]).expect("inside");
-        assert_eq!(lattice.exponent, -1074 - 8);
-        assert_eq!(lattice.points, [[1 << 8, -1 << 8], [1 << 60, 0]]);
+    fn window_is_61_places() {
+        let inside = lattice([[1.0, -3.0], [power_of_two(-59), -0.0]]).expect("inside");
+        assert_eq!(inside.exponent, 1 - 60);
+        assert_eq!(inside.points, [[1 << 59, -3 << 59], [1, 0]]);
+        assert_eq!(lattice([[-0.0], [0.0]]).expect("inside").points, [[0], [0]]);
+        assert!(lattice([[1.0, -3.0], [power_of_two(-60), 0.0]]).is_none());
+        assert!(lattice([[1.0, -3.0], [-1.0 - f64::EPSILON, power_of_two(-1000)]]).is_none());
+        assert!(lattice([[f64::MAX], [f64::from_bits(1)]]).is_none());
+        assert!(lattice([[power_of_two(1000)], [f64::from_bits(1)]]).is_none());
+        assert!(lattice([[f64::from_bits(1)], [0.0]]).is_none());
+        assert!(lattice([[f64::INFINITY], [1.0]]).is_none());
+        assert!(lattice([[f64::NAN, f64::MAX]]).is_none());
+        assert!(lattice([[1.0, f64::NAN, 2.0]]).is_none());
+    }
+
+    #[test]
+    fn conversion_is_exact() {
+        let mut bits = 0x9e37_79b9_7f4a_7c15u64;
+        for _ in 0..10_000 {
+            bits = bits.wrapping_mul(0xd134_2543_de82_ef95).wrapping_add(1);
+            // Any 53-bit integer, shifted within the window, is found again.
+            let mantissa = (bits >> 11) as i64 - (1 << 52);
+            let x = mantissa as f64 * power_of_two((bits % 9) as i32 - 300);
+            let inside = lattice([[power_of_two(-300 + 60), x]]).expect("inside");
+            assert_eq!(inside.exponent, -300);
+            assert_eq!(inside.points[0][1], mantissa << (bits % 9));
+        }
     }
 }

@@ -6,4 +6,5 @@ pub(crate) mod expansion;
 pub(crate) mod fixed_point;
 pub(crate) mod lattice;
 pub(crate) mod scaled;
+pub(crate) mod small;
 mod wide;
