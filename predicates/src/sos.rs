@@ -37,7 +37,7 @@ mod tests;
 use crate::{Point, Sign, incircle, insphere, orient2d, orient3d};
 use expansion::Expansion;
 
-/// [`orient2d`](crate::orient2d) of displaced points; `ids[i]` names `points[i]`.
+/// [`orient2d`] of displaced points; `ids[i]` names `points[i]`.
 ///
 /// ```
 /// use welter_predicates::{Sign, sos::orient2d_sos};
@@ -53,7 +53,7 @@ pub fn orient2d_sos(points: [impl Point<2>; 3], ids: [u64; 3]) -> Sign {
     decide(orient2d(a, b, c), points, ids, false)
 }
 
-/// [`orient3d`](crate::orient3d) of displaced points; `ids[i]` names `points[i]`.
+/// [`orient3d`] of displaced points; `ids[i]` names `points[i]`.
 ///
 /// ```
 /// use welter_predicates::{Sign, sos::orient3d_sos};
@@ -67,7 +67,7 @@ pub fn orient3d_sos(points: [impl Point<3>; 4], ids: [u64; 4]) -> Sign {
     decide(orient3d(a, b, c, d), points, ids, false)
 }
 
-/// [`incircle`](crate::incircle) of displaced points; `ids[i]` names `points[i]`.
+/// [`incircle`] of displaced points; `ids[i]` names `points[i]`.
 ///
 /// ```
 /// use welter_predicates::{Sign, sos::incircle_sos};
@@ -80,7 +80,7 @@ pub fn incircle_sos(points: [impl Point<2>; 4], ids: [u64; 4]) -> Sign {
     decide(incircle(a, b, c, d), points, ids, true)
 }
 
-/// [`insphere`](crate::insphere) of displaced points; `ids[i]` names `points[i]`.
+/// [`insphere`] of displaced points; `ids[i]` names `points[i]`.
 ///
 /// ```
 /// use welter_predicates::{Sign, sos::insphere_sos};

@@ -66,7 +66,7 @@ pub use point_triangle::{
 };
 pub use ray_triangle::{
     RayFeature, RayTriangle, ray_intersects_triangle, ray_triangle, ray_triangle_axis,
-    ray_triangle_direction, try_ray_triangle, try_ray_triangle_direction,
+    ray_triangle_direction, try_ray_triangle, try_ray_triangle_axis, try_ray_triangle_direction,
 };
 pub use segment_box::{
     BoxFeature, PointBox, SegmentBox, Side, box_contains, point_in_box, segment_box, segment_intersects_box,

@@ -172,6 +172,27 @@ pub fn try_ray_triangle_direction(
     Ok(ray_triangle_direction(o, d, t))
 }
 
+/// As [`ray_triangle_axis`], checked; arguments are counted `origin`, `t[0]`, `t[1]`, `t[2]`.
+///
+/// # Errors
+/// [`NonFinite`] for the first coordinate that is infinite or NaN.
+///
+/// ```
+/// use welter_predicates::intersection::try_ray_triangle_axis;
+/// let t = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, f64::NAN]];
+/// assert_eq!(try_ray_triangle_axis([0.0; 3], 2, true, t).unwrap_err().argument, 3);
+/// ```
+pub fn try_ray_triangle_axis(
+    origin: impl Point<3>,
+    axis: usize,
+    positive: bool,
+    t: [impl Point<3>; 3],
+) -> Result<RayTriangle, NonFinite> {
+    let (o, t) = (origin.coords(), t.map(Point::coords));
+    check_finite(&[o, t[0], t[1], t[2]])?;
+    Ok(ray_triangle_axis(o, axis, positive, t))
+}
+
 /// What gives a ray its direction.
 #[derive(Clone, Copy, Debug)]
 enum Along {
