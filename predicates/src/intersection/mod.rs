@@ -17,9 +17,9 @@
 //! | triangle, box | [`triangle_box`] | [`triangle_intersects_box`] |
 //!
 //! **Promises.** Operands are closed sets. Every answer is right for every finite `f64`: it is made of signs of
-//! [`orient2d`](crate::orient2d) and [`orient3d`](crate::orient3d) of comparisons of coordinates and,
-//! for rays along a vector, of two determinants as exact as those. The yes-or-no form always equals `case != Disjoint`. Degenerate operands (a segment of length
-//! zero, a collinear or one-point triangle, a flat tetrahedron or box) are decided too: where the closed sets
+//! [`orient2d`](crate::orient2d) and [`orient3d`](crate::orient3d), of comparisons of coordinates and, for rays along
+//! a vector, of two determinants as exact as those. The yes-or-no form always equals `case != Disjoint`.
+//! Degenerate operands (a segment of length zero, a collinear or one-point triangle, a flat tetrahedron or box) are decided too: where the closed sets
 //! meet, the answer is `Degenerate` with a flag for each operand; where they do not, `Disjoint`. A box with
 //! `min > max` on some axis is the empty set, disjoint from everything. When a coordinate is infinite or NaN the
 //! answer is `Disjoint`; the `try_` form returns [`NonFinite`](crate::NonFinite) instead.
