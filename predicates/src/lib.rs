@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod arithmetic;
+pub mod ccd;
 mod filter;
 mod finite;
 mod incircle;

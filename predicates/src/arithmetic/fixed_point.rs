@@ -45,6 +45,21 @@ impl Unit {
         Self { exponent: if exponent == i32::MAX { 0 } else { exponent } }
     }
 
+    /// The power of two that it is.
+    pub(crate) fn exponent(self) -> i32 {
+        self.exponent
+    }
+
+    /// How many limbs the largest of `values`, all finite, has in their common unit, with a bit to spare.
+    pub(crate) fn limbs(values: impl Iterator<Item = f64> + Clone) -> usize {
+        let unit = Self::of(values.clone()).exponent;
+        let bits = values.map(|value| {
+            let (_, mantissa, exponent) = decompose(value);
+            if mantissa == 0 { 0 } else { exponent + 64 - mantissa.leading_zeros() as i32 - unit }
+        });
+        (bits.max().unwrap_or(0) as usize + 1).div_ceil(64)
+    }
+
     /// `value` as an integer number of units. `value` belongs to the set that the unit was made of.
     pub(crate) fn integer(self, value: f64) -> Integer<COORDINATE_LIMBS> {
         let (negative, mantissa, exponent) = decompose(value);

@@ -1,0 +1,27 @@
+//! Exact continuous collision detection: does a moving primitive touch another during a time step?
+//!
+//! Vertices move on straight lines at constant speed from their place at time 0 to their place at time 1.
+//!
+//! # Promises
+//! * The answer is right for every finite `f64`: contacts at one time or at several, tangential ones, coplanar and
+//!   collinear motion, degenerate and resting primitives, subnormal numbers and 1e308.
+//! * Primitives are closed sets and the time step is the closed interval [0, 1].
+//! * The answer depends on the given numbers alone. It is the same under renaming of vertices and axes, mirroring,
+//!   reversal of time and scaling by powers of two.
+//! * No allocation, no recursion; the worst case is bounded by a constant.
+//!
+//! # Non-promises
+//! * Motion on other than straight lines, and contact within a distance.
+//! * Where and when: these are constructions, not predicates.
+//!
+//! # Method
+//! First the exact separating boxes, by comparisons of coordinates alone. Then the decision of [`decide`], whose
+//! head states the algorithm and its proof. In contrast to crossing parity [Brochu12] it sees an even number of contacts.
+
+mod decide;
+mod query;
+
+pub use query::{
+    ContactTimes, edge_edge, edge_edge_times, vertex_face, vertex_face_times, vertex_segment_2d,
+    vertex_segment_2d_times,
+};

@@ -1,0 +1,173 @@
+//! The queries: vertex against face, edge against edge, and vertex against segment in the plane.
+
+use super::decide::{Ask, Motion};
+use crate::Point;
+use crate::arithmetic::arena::Arena;
+use crate::arithmetic::fixed_point::Unit;
+
+/// The times of a closed time step at which two primitives touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ContactTimes {
+    /// So many single times.
+    Finite(u8),
+    /// Throughout an interval of time, or several.
+    Infinite,
+}
+
+impl ContactTimes {
+    /// True when there is a contact.
+    #[must_use]
+    pub fn any(self) -> bool {
+        self != Self::Finite(0)
+    }
+}
+
+/// Corners of the polygon that holds the origin when a vertex touches a face: differences of the points v, f0, f1, f2.
+const VERTEX_FACE: [(usize, usize); 3] = [(1, 0), (2, 0), (3, 0)];
+
+/// The same for the points ea0, ea1, eb0, eb1, in order around the parallelogram.
+const EDGE_EDGE: [(usize, usize); 4] = [(0, 2), (1, 2), (1, 3), (0, 3)];
+
+/// The same for the points v, s0, s1 of the plane.
+const VERTEX_SEGMENT: [(usize, usize); 2] = [(1, 0), (2, 0)];
+
+/// Whether the moving vertex touches the moving triangle at a time of the closed step.
+///
+/// `t0` and `t1` are the places of `v, f0, f1, f2` at its beginning and at its end. False when a coordinate is not finite.
+///
+/// ```
+/// use welter_predicates::ccd::vertex_face;
+/// let rest = [[-4.0, -4.0, 0.0], [4.0, -4.0, 0.0], [0.0, 4.0, 0.0]];
+/// let step = |z0, z1| vertex_face([[0.0, 0.0, z0], rest[0], rest[1], rest[2]], [[0.0, 0.0, z1], rest[0], rest[1], rest[2]]);
+/// assert!(step(1.0, -1.0));
+/// assert!(step(1.0, 0.0));
+/// assert!(!step(1.0, 5e-324));
+/// ```
+#[must_use]
+pub fn vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
+    contact_times(t0.map(Point::coords), t1.map(Point::coords), &VERTEX_FACE, Ask::Any).any()
+}
+
+/// At how many times of the closed step the moving vertex touches the moving triangle; arguments as for [`vertex_face`].
+///
+/// ```
+/// use welter_predicates::ccd::{ContactTimes, vertex_face_times};
+/// // The triangle swings through the vertex's path and back: contact at 1/4 and at 3/4.
+/// let t0 = [[-1.0, 0.0, -0.25], [-4.0, -4.0, -4.0], [4.0, -4.0, 4.0], [0.0, 4.0, 0.0]];
+/// let t1 = [[1.0, 0.0, -0.25], [-4.0, -4.0, 4.0], [4.0, -4.0, -4.0], [0.0, 4.0, 0.0]];
+/// assert_eq!(vertex_face_times(t0, t1), ContactTimes::Finite(2));
+/// ```
+#[must_use]
+pub fn vertex_face_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> ContactTimes {
+    contact_times(t0.map(Point::coords), t1.map(Point::coords), &VERTEX_FACE, Ask::Count)
+}
+
+/// Whether the moving edges touch at a time of the closed step.
+///
+/// `t0` and `t1` are the places of `ea0, ea1, eb0, eb1` at its beginning and at its end. False when a coordinate is not
+/// finite.
+///
+/// ```
+/// use welter_predicates::ccd::edge_edge;
+/// // One edge slides along its own line onto the other, at rest.
+/// let t0 = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
+/// let t1 = [[1.5, 0.0, 0.0], [2.5, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
+/// assert!(edge_edge(t0, t1));
+/// ```
+#[must_use]
+pub fn edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
+    contact_times(t0.map(Point::coords), t1.map(Point::coords), &EDGE_EDGE, Ask::Any).any()
+}
+
+/// At how many times of the closed step the moving edges touch; arguments as for [`edge_edge`].
+///
+/// ```
+/// use welter_predicates::ccd::{ContactTimes, edge_edge_times};
+/// let t0 = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
+/// let t1 = [[1.5, 0.0, 0.0], [2.5, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
+/// assert_eq!(edge_edge_times(t0, t1), ContactTimes::Infinite);
+/// ```
+#[must_use]
+pub fn edge_edge_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> ContactTimes {
+    contact_times(t0.map(Point::coords), t1.map(Point::coords), &EDGE_EDGE, Ask::Count)
+}
+
+/// Whether the moving vertex touches the moving segment of the plane at a time of the closed step.
+///
+/// `t0` and `t1` are the places of `v, s0, s1` at its beginning and at its end. False when a coordinate is not finite.
+///
+/// ```
+/// use welter_predicates::ccd::vertex_segment_2d;
+/// let s = [[-1.0, 0.0], [1.0, 0.0]];
+/// assert!(vertex_segment_2d([[0.0, 1.0], s[0], s[1]], [[0.0, -1.0], s[0], s[1]]));
+/// assert!(!vertex_segment_2d([[2.0, 1.0], s[0], s[1]], [[2.0, -1.0], s[0], s[1]]));
+/// ```
+#[must_use]
+pub fn vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> bool {
+    contact_times(t0.map(Point::coords), t1.map(Point::coords), &VERTEX_SEGMENT, Ask::Any).any()
+}
+
+/// At how many times of the closed step the moving vertex touches the moving segment; arguments as for
+/// [`vertex_segment_2d`].
+///
+/// ```
+/// use welter_predicates::ccd::{ContactTimes, vertex_segment_2d_times};
+/// let s = [[-1.0, 0.0], [1.0, 0.0]];
+/// let times = vertex_segment_2d_times([[-2.0, 0.0], s[0], s[1]], [[-1.0, 0.0], s[0], s[1]]);
+/// assert_eq!(times, ContactTimes::Finite(1));
+/// ```
+#[must_use]
+pub fn vertex_segment_2d_times(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> ContactTimes {
+    contact_times(t0.map(Point::coords), t1.map(Point::coords), &VERTEX_SEGMENT, Ask::Count)
+}
+
+/// Limbs of an arena for one decision, per limb of a coordinate. The largest use, seen with coordinates of 33 limbs
+/// whose motion stays in a plane, is tested to be below this.
+const LIMBS_PER_LIMB: usize = 1600;
+
+/// Coordinates of up to this many bits, that is most, are decided with a small arena.
+const FEW_LIMBS: usize = 3;
+
+fn contact_times<const N: usize, const P: usize>(
+    t0: [[f64; N]; P],
+    t1: [[f64; N]; P],
+    corners: &[(usize, usize)],
+    ask: Ask,
+) -> ContactTimes {
+    if boxes_apart(&t0, &t1, corners) {
+        return ContactTimes::Finite(0);
+    }
+    let coordinates = || t0.as_flattened().iter().chain(t1.as_flattened()).copied();
+    if !coordinates().all(f64::is_finite) {
+        return ContactTimes::Finite(0);
+    }
+    if Unit::limbs(coordinates()) <= FEW_LIMBS {
+        decide::<N, { FEW_LIMBS * LIMBS_PER_LIMB }>([&t0, &t1], corners, ask)
+    } else {
+        decide::<N, { 33 * LIMBS_PER_LIMB }>([&t0, &t1], corners, ask)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn decide<const N: usize, const LIMBS: usize>(
+    points: [&[[f64; N]]; 2],
+    corners: &[(usize, usize)],
+    ask: Ask,
+) -> ContactTimes {
+    let mut limbs = [0; LIMBS];
+    let mut arena = Arena::new(&mut limbs);
+    Motion::new(points, corners, &mut arena).contact_times(ask, &mut arena)
+}
+
+/// True when, along some axis, all corners are strictly on one side of the origin at both ends of the step, and so
+/// throughout. Compares coordinates; nothing is rounded.
+#[inline]
+fn boxes_apart<const N: usize>(t0: &[[f64; N]], t1: &[[f64; N]], corners: &[(usize, usize)]) -> bool {
+    (0..N).any(|k| {
+        let all = |apart: fn(f64, f64) -> bool| {
+            corners.iter().all(|&(i, j)| apart(t0[i][k], t0[j][k]) && apart(t1[i][k], t1[j][k]))
+        };
+        all(|x, y| x < y) || all(|x, y| x > y)
+    })
+}
