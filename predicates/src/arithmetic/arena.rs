@@ -109,9 +109,12 @@ impl<'b> Arena<'b> {
         if a.negative == b.negative {
             return self.add_magnitudes(a, b);
         }
-        match self.magnitude(a).len().cmp(&self.magnitude(b).len()).then_with(|| {
-            self.magnitude(a).iter().rev().cmp(self.magnitude(b).iter().rev())
-        }) {
+        match self
+            .magnitude(a)
+            .len()
+            .cmp(&self.magnitude(b).len())
+            .then_with(|| self.magnitude(a).iter().rev().cmp(self.magnitude(b).iter().rev()))
+        {
             core::cmp::Ordering::Equal => Int::ZERO,
             core::cmp::Ordering::Greater => self.subtract_magnitudes(a, b),
             core::cmp::Ordering::Less => self.subtract_magnitudes(b, a),

@@ -47,10 +47,6 @@ impl Polynomial {
         self.len == 0
     }
 
-    fn is_constant(&self) -> bool {
-        self.len <= 1
-    }
-
     fn lead(&self) -> Int {
         self.coefficients[self.len - 1]
     }
@@ -100,6 +96,32 @@ impl Polynomial {
         }
         arena.keep(mark, []);
         sign
+    }
+
+    /// The strict sign that the Bernstein coefficients on [0, 1] agree on: that of the polynomial throughout. `Zero`
+    /// for the zero polynomial, `None` when they differ or some are zero.
+    pub(crate) fn steady_sign(&self, arena: &mut Arena<'_>) -> Option<Sign> {
+        /// Coefficients of `t^i` in the multiples of the inner Bernstein coefficients, by degree.
+        const INNER: [&[[u64; 3]]; 4] = [&[], &[], &[[2, 1, 0]], &[[3, 1, 0], [3, 2, 1]]];
+        if self.len <= 1 {
+            return Some(self.sign_at_0());
+        }
+        let sign = self.sign_at_0();
+        if sign.is_zero() || self.sign_at_1(arena) != sign {
+            return None;
+        }
+        let mark = arena.mark();
+        let mut steady = true;
+        for weights in INNER[self.len - 1] {
+            let mut sum = Int::ZERO;
+            for (i, &weight) in weights.iter().enumerate().filter(|&(_, &weight)| weight > 0) {
+                let term = arena.mul_small(self.coefficients[i], weight);
+                sum = arena.add(sum, term);
+            }
+            steady &= sum.sign() == sign;
+        }
+        arena.keep(mark, []);
+        steady.then_some(sign)
     }
 
     pub(crate) fn add(&self, other: &Self, arena: &mut Arena<'_>) -> Self {
@@ -204,12 +226,12 @@ pub(crate) const MOST_ROOTS: usize = 3;
 /// The roots in (0, 1) of a polynomial of degree at most 3 that is not zero.
 pub(crate) fn roots_in_unit_interval(p: &Polynomial, arena: &mut Arena<'_>) -> Roots {
     let p = p.without_roots_at_ends(arena);
+    if p.steady_sign(arena).is_some() {
+        return Roots { p, derivative: Polynomial::ZERO, second: Polynomial::ZERO, count: 0, marker: 0 };
+    }
     let derivative = p.derivative(arena);
     let second = derivative.derivative(arena);
     let mut roots = Roots { p, derivative, second, count: 0, marker: 0 };
-    if p.is_constant() {
-        return roots;
-    }
     let mark = arena.mark();
     roots.count = index(&p, derivative, arena) as usize;
     if roots.count == 2 {
@@ -230,8 +252,11 @@ impl Roots {
 
     /// The signs of `q`, of degree at most 2, at each of the roots, in an order that is the same for every `q`.
     pub(crate) fn signs(&self, q: &Polynomial, arena: &mut Arena<'_>) -> [Sign; MOST_ROOTS] {
-        if self.count == 0 || q.is_constant() {
-            return [q.sign_at_0(); MOST_ROOTS];
+        if let Some(sign) = q.steady_sign(arena) {
+            return [sign; MOST_ROOTS];
+        }
+        if self.count == 0 {
+            return [Sign::Zero; MOST_ROOTS];
         }
         let mark = arena.mark();
         let h = self.derivative.mul(q, arena).remainder(&self.p, arena);

@@ -252,4 +252,3 @@ fn minor(a: &[Polynomial; 3], b: &[Polynomial; 3], i: usize, j: usize, arena: &m
     let second = a[j].mul(&b[i], arena);
     first.add(&second.negated(), arena)
 }
-

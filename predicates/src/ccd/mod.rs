@@ -15,11 +15,21 @@
 //! * Where and when: these are constructions, not predicates.
 //!
 //! # Method
-//! First the exact separating boxes, by comparisons of coordinates alone. Then the decision of [`decide`], whose
-//! head states the algorithm and its proof. In contrast to crossing parity [Brochu12] it sees an even number of contacts.
+//! Stages, each of which leaves to the next what it cannot decide:
+//!
+//! 1. boxes, by exact comparison of coordinates;
+//! 2. separating directions, in rounded arithmetic with proven bounds (`separation`);
+//! 3. crossings well inside or well outside, in rounded arithmetic with proven bounds (`crossing`);
+//! 4. contact at the ends of the step, by [`crate::intersection`];
+//! 5. the complete decision in exact integers (`decide`, whose head states the algorithm and its proof).
+//!
+//! In contrast to crossing parity [Brochu12] an even number of contacts is seen, and no ray is cast. Cost: over public
+//! queries about nine in ten end at the first two stages, and about one in fifty needs the last, tens of microseconds.
 
+mod crossing;
 mod decide;
 mod query;
+mod separation;
 
 pub use query::{
     ContactTimes, edge_edge, edge_edge_times, vertex_face, vertex_face_times, vertex_segment_2d,

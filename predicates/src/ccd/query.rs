@@ -1,9 +1,11 @@
 //! The queries: vertex against face, edge against edge, and vertex against segment in the plane.
 
 use super::decide::{Ask, Motion};
+use super::separation::Corners;
 use crate::Point;
 use crate::arithmetic::arena::Arena;
-use crate::arithmetic::fixed_point::Unit;
+use crate::arithmetic::fixed_point::{COORDINATE_LIMBS, Unit};
+use crate::intersection::{segments_intersect_3d, triangle_contains_3d};
 
 /// The times of a closed time step at which two primitives touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,7 +47,19 @@ const VERTEX_SEGMENT: [(usize, usize); 2] = [(1, 0), (2, 0)];
 /// ```
 #[must_use]
 pub fn vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
-    contact_times(t0.map(Point::coords), t1.map(Point::coords), &VERTEX_FACE, Ask::Any).any()
+    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
+    if boxes_apart(&t0, &t1, &VERTEX_FACE) {
+        return false;
+    }
+    let corners = Corners::new(&t0, &t1, &VERTEX_FACE);
+    if corners.separated() {
+        return false;
+    }
+    if let Some(contact) = corners.crosses() {
+        return contact;
+    }
+    let at = |[v, f0, f1, f2]: [[f64; 3]; 4]| triangle_contains_3d([f0, f1, f2], v);
+    all_finite(&t0, &t1) && (at(t0) || at(t1) || decide([&t0, &t1], &VERTEX_FACE, Ask::Any).any())
 }
 
 /// At how many times of the closed step the moving vertex touches the moving triangle; arguments as for [`vertex_face`].
@@ -59,7 +73,11 @@ pub fn vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
 /// ```
 #[must_use]
 pub fn vertex_face_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> ContactTimes {
-    contact_times(t0.map(Point::coords), t1.map(Point::coords), &VERTEX_FACE, Ask::Count)
+    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
+    if never(&t0, &t1, &VERTEX_FACE) || !all_finite(&t0, &t1) {
+        return ContactTimes::Finite(0);
+    }
+    decide([&t0, &t1], &VERTEX_FACE, Ask::Count)
 }
 
 /// Whether the moving edges touch at a time of the closed step.
@@ -76,7 +94,19 @@ pub fn vertex_face_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> Cont
 /// ```
 #[must_use]
 pub fn edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
-    contact_times(t0.map(Point::coords), t1.map(Point::coords), &EDGE_EDGE, Ask::Any).any()
+    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
+    if boxes_apart(&t0, &t1, &EDGE_EDGE) {
+        return false;
+    }
+    let corners = Corners::new(&t0, &t1, &EDGE_EDGE);
+    if corners.separated() {
+        return false;
+    }
+    if let Some(contact) = corners.crosses() {
+        return contact;
+    }
+    let at = |[ea0, ea1, eb0, eb1]: [[f64; 3]; 4]| segments_intersect_3d([ea0, ea1], [eb0, eb1]);
+    all_finite(&t0, &t1) && (at(t0) || at(t1) || decide([&t0, &t1], &EDGE_EDGE, Ask::Any).any())
 }
 
 /// At how many times of the closed step the moving edges touch; arguments as for [`edge_edge`].
@@ -89,7 +119,11 @@ pub fn edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
 /// ```
 #[must_use]
 pub fn edge_edge_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> ContactTimes {
-    contact_times(t0.map(Point::coords), t1.map(Point::coords), &EDGE_EDGE, Ask::Count)
+    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
+    if never(&t0, &t1, &EDGE_EDGE) || !all_finite(&t0, &t1) {
+        return ContactTimes::Finite(0);
+    }
+    decide([&t0, &t1], &EDGE_EDGE, Ask::Count)
 }
 
 /// Whether the moving vertex touches the moving segment of the plane at a time of the closed step.
@@ -104,7 +138,11 @@ pub fn edge_edge_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> Contac
 /// ```
 #[must_use]
 pub fn vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> bool {
-    contact_times(t0.map(Point::coords), t1.map(Point::coords), &VERTEX_SEGMENT, Ask::Any).any()
+    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
+    if boxes_apart(&t0, &t1, &VERTEX_SEGMENT) || !all_finite(&t0, &t1) {
+        return false;
+    }
+    decide([&t0, &t1], &VERTEX_SEGMENT, Ask::Any).any()
 }
 
 /// At how many times of the closed step the moving vertex touches the moving segment; arguments as for
@@ -118,7 +156,11 @@ pub fn vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> bool
 /// ```
 #[must_use]
 pub fn vertex_segment_2d_times(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> ContactTimes {
-    contact_times(t0.map(Point::coords), t1.map(Point::coords), &VERTEX_SEGMENT, Ask::Count)
+    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
+    if boxes_apart(&t0, &t1, &VERTEX_SEGMENT) || !all_finite(&t0, &t1) {
+        return ContactTimes::Finite(0);
+    }
+    decide([&t0, &t1], &VERTEX_SEGMENT, Ask::Count)
 }
 
 /// Limbs of an arena for one decision, per limb of a coordinate. The largest use, seen with coordinates of 33 limbs
@@ -128,29 +170,29 @@ const LIMBS_PER_LIMB: usize = 1600;
 /// Coordinates of up to this many bits, that is most, are decided with a small arena.
 const FEW_LIMBS: usize = 3;
 
-fn contact_times<const N: usize, const P: usize>(
-    t0: [[f64; N]; P],
-    t1: [[f64; N]; P],
-    corners: &[(usize, usize)],
-    ask: Ask,
-) -> ContactTimes {
-    if boxes_apart(&t0, &t1, corners) {
-        return ContactTimes::Finite(0);
-    }
-    let coordinates = || t0.as_flattened().iter().chain(t1.as_flattened()).copied();
-    if !coordinates().all(f64::is_finite) {
-        return ContactTimes::Finite(0);
-    }
-    if Unit::limbs(coordinates()) <= FEW_LIMBS {
-        decide::<N, { FEW_LIMBS * LIMBS_PER_LIMB }>([&t0, &t1], corners, ask)
+/// True when a filter separates the primitives throughout the step.
+#[inline]
+fn never<const K: usize>(t0: &[[f64; 3]; 4], t1: &[[f64; 3]; 4], corners: &[(usize, usize); K]) -> bool {
+    boxes_apart(t0, t1, corners) || Corners::new(t0, t1, corners).separated()
+}
+
+fn all_finite<const N: usize, const P: usize>(t0: &[[f64; N]; P], t1: &[[f64; N]; P]) -> bool {
+    t0.as_flattened().iter().chain(t1.as_flattened()).all(|x| x.is_finite())
+}
+
+/// The decision of [`super::decide`], in an arena of the size that the coordinates ask for. All are finite.
+#[cold]
+fn decide<const N: usize>(points: [&[[f64; N]]; 2], corners: &[(usize, usize)], ask: Ask) -> ContactTimes {
+    let coordinates = points.into_iter().flat_map(|p| p.as_flattened().iter().copied());
+    if Unit::limbs(coordinates) <= FEW_LIMBS {
+        decide_within::<N, { FEW_LIMBS * LIMBS_PER_LIMB }>(points, corners, ask)
     } else {
-        decide::<N, { 33 * LIMBS_PER_LIMB }>([&t0, &t1], corners, ask)
+        decide_within::<N, { COORDINATE_LIMBS * LIMBS_PER_LIMB }>(points, corners, ask)
     }
 }
 
-#[cold]
 #[inline(never)]
-fn decide<const N: usize, const LIMBS: usize>(
+fn decide_within<const N: usize, const LIMBS: usize>(
     points: [&[[f64; N]]; 2],
     corners: &[(usize, usize)],
     ask: Ask,
