@@ -55,6 +55,9 @@ pub(crate) struct Arena<'b> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mark(usize);
 
+/// More than the coefficients of any polynomial.
+const MOST_KEPT: usize = 8;
+
 impl<'b> Arena<'b> {
     pub(crate) fn new(limbs: &'b mut [u64]) -> Self {
         Self {
@@ -69,19 +72,22 @@ impl<'b> Arena<'b> {
         Mark(self.top)
     }
 
-    /// Moves `values` down to the mark and frees the rest above it. The values lie above the mark in ascending
-    /// order, or below it.
+    /// Moves `values`, which do not overlap, down to the mark and frees the rest above it. Those below the mark stay
+    /// where they are.
+    ///
+    /// # Panics
+    /// If there are more than `MOST_KEPT`.
     pub(crate) fn keep<'v>(&mut self, mark: Mark, values: impl IntoIterator<Item = &'v mut Int>) {
-        #[cfg(test)]
-        {
-            self.high_water = self.high_water.max(self.top);
+        let mut above: [Option<&mut Int>; MOST_KEPT] = [const { None }; MOST_KEPT];
+        let mut count = 0;
+        for value in values.into_iter().filter(|value| value.len > 0 && value.start >= mark.0) {
+            above[count] = Some(value);
+            count += 1;
         }
+        let above = &mut above[..count];
+        above.sort_unstable_by_key(|value| value.as_ref().map(|value| value.start));
         let mut top = mark.0;
-        for value in values {
-            if value.len == 0 || value.start < mark.0 {
-                continue;
-            }
-            debug_assert!(value.start >= top, "values to keep are in ascending order");
+        for value in above.iter_mut().flatten() {
             self.limbs.copy_within(value.start..value.start + value.len, top);
             value.start = top;
             top += value.len;

@@ -19,7 +19,7 @@
 //! Promises: exact, and the number of operations is bounded by a constant. Remainders are pseudo-remainders with a
 //! positive factor, so that signs are kept without a division.
 
-use super::arena::{Arena, Int};
+use super::arena::{Arena, Int, Mark};
 use crate::Sign;
 
 /// Coefficients of the largest product formed: degree 2 times degree 2.
@@ -55,6 +55,11 @@ impl Polynomial {
         while self.len > 0 && self.coefficients[self.len - 1].sign().is_zero() {
             self.len -= 1;
         }
+    }
+
+    /// Frees what has been formed since the mark, but for this.
+    pub(crate) fn keep(&mut self, mark: Mark, arena: &mut Arena<'_>) {
+        arena.keep(mark, self.values_mut());
     }
 
     fn values_mut(&mut self) -> impl Iterator<Item = &mut Int> {
@@ -144,6 +149,7 @@ impl Polynomial {
         let mut result = Self { len: self.len + other.len - 1, ..Self::ZERO };
         let mark = arena.mark();
         for k in 0..result.len {
+            let inner = arena.mark();
             let mut sum = Int::ZERO;
             for i in 0..self.len.min(k + 1) {
                 if k - i < other.len {
@@ -151,6 +157,7 @@ impl Polynomial {
                     sum = arena.add(sum, term);
                 }
             }
+            arena.keep(inner, [&mut sum]);
             result.coefficients[k] = sum;
         }
         arena.keep(mark, result.values_mut());
@@ -175,11 +182,13 @@ impl Polynomial {
             let offset = self.len - divisor.len;
             let factor = if negative { self.lead().negated() } else { self.lead() };
             for i in 0..self.len - 1 {
+                let inner = arena.mark();
                 let mut c = arena.mul(self.coefficients[i], scale);
                 if i >= offset {
                     let term = arena.mul(divisor.coefficients[i - offset], factor);
                     c = arena.sub(c, term);
                 }
+                arena.keep(inner, [&mut c]);
                 self.coefficients[i] = c;
             }
             self.len -= 1;

@@ -113,10 +113,12 @@ impl Motion {
             }
             motion.normals = motion.count;
             // det(P_0, P_1, P_last) = n_0 . P_last
+            let mark = arena.mark();
             for k in 0..3 {
                 let term = motion.functions[k].mul(&places[motion.corners - 1][k], arena);
                 motion.volume = motion.volume.add(&term, arena);
             }
+            motion.volume.keep(mark, arena);
         }
         for place in &places[..motion.corners] {
             for coordinate in &place[..N] {
@@ -248,7 +250,10 @@ fn has_opposites<'s>(signs: impl Iterator<Item = &'s Sign>) -> bool {
 
 /// `a_i b_j - a_j b_i`.
 fn minor(a: &[Polynomial; 3], b: &[Polynomial; 3], i: usize, j: usize, arena: &mut Arena<'_>) -> Polynomial {
+    let mark = arena.mark();
     let first = a[i].mul(&b[j], arena);
     let second = a[j].mul(&b[i], arena);
-    first.add(&second.negated(), arena)
+    let mut minor = first.add(&second.negated(), arena);
+    minor.keep(mark, arena);
+    minor
 }
