@@ -114,8 +114,8 @@ impl Motion {
             motion.normals = motion.count;
             // det(P_0, P_1, P_last) = n_0 . P_last
             let mark = arena.mark();
-            for k in 0..3 {
-                let term = motion.functions[k].mul(&places[motion.corners - 1][k], arena);
+            for (k, coordinate) in places[motion.corners - 1].iter().enumerate() {
+                let term = motion.functions[k].mul(coordinate, arena);
                 motion.volume = motion.volume.add(&term, arena);
             }
             motion.volume.keep(mark, arena);

@@ -259,7 +259,7 @@ mod tests {
         let mut bits = Bits(11);
         let mut limbs = [0; COORDINATE_LIMBS * LIMBS_PER_LIMB];
         let mut most = 0;
-        for round in 0..60 {
+        for round in 0..16 {
             let mut points: [[[f64; 3]; 4]; 2] = core::array::from_fn(|_| {
                 core::array::from_fn(|_| {
                     core::array::from_fn(|_| if round % 3 == 0 { bits.wide() } else { bits.coarse() })
