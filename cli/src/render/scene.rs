@@ -131,7 +131,7 @@ pub(crate) struct Style {
 impl Default for Style {
     fn default() -> Self {
         Self {
-            shading: Shading::Smooth { crease_degrees: 50.0 },
+            shading: Shading::Smooth { crease_degrees: 60.0 },
             front: Rgb::of_bytes([229, 219, 200]),
             back: Rgb::of_bytes([112, 150, 180]),
             accent: Rgb::of_bytes([222, 76, 20]),

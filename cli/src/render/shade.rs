@@ -28,7 +28,7 @@ const RIM_LIGHT: Rgb = Rgb::new(0.16, 0.16, 0.17);
 const BETWEEN: f32 = 0.16;
 const SPECULAR: f32 = 0.09;
 /// Share of its own colour that a highlighted triangle shows without light.
-const GLOW: f32 = 0.28;
+const GLOW: f32 = 0.35;
 
 /// Toward the key light, of unit length.
 pub(super) fn key_direction() -> DVec3 {
@@ -261,8 +261,8 @@ impl<'a> Shader<'a> {
 /// Bends light above the knee so that it still shows differences: x (1 + x / w^2) / (1 + x) [Reinhard02] above it, which is
 /// smooth at the knee and reaches full light at w.
 fn tone(c: Rgb) -> Rgb {
-    const KNEE: f32 = 0.6;
-    const FULL: f32 = 2.5;
+    const KNEE: f32 = 0.7;
+    const FULL: f32 = 2.2;
     let bend = |v: f32| {
         let x = ((v - KNEE) / (1.0 - KNEE)).clamp(0.0, FULL);
         v.min(KNEE) + (1.0 - KNEE) * x * (1.0 + x / (FULL * FULL)) / (1.0 + x)
