@@ -1,4 +1,16 @@
 //! The stages of an evaluation: [`Stage`], and the ladder that every predicate climbs.
+//!
+//! **Computes** the sign, or a value of the right sign, of a polynomial in coordinate differences, by the first of
+//! five number types that is certain of it.
+//!
+//! **Promises** the exact sign for all finite coordinates, and zero for others.
+//!
+//! **Method.** Filter, lattice, double-double, expansion, integer, in this order, which is the order of their cost
+//! where they answer: measured, the lattice (in two sizes, see [`crate::arithmetic::small`] and
+//! [`crate::arithmetic::lattice`]) takes less than double-double numbers do. Each stage is a function that gives an
+//! answer or `None`, and that the tests call for itself. All run the same text, [`crate::polynomial`].
+//!
+//! **Invariant.** A stage never answers wrongly; the last one always answers. `docs/accuracy.md` has the proofs.
 
 use crate::arithmetic::double_double::{self, DoubleDoubles, Magnitude, Magnitudes, Scale};
 use crate::arithmetic::expansion::{self, Expansion, Expansions};

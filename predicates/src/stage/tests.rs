@@ -123,3 +123,56 @@ fn stages_agree() {
     check::<Incircle, 2, 4, 3>(4);
     check::<Insphere, 3, 5, 4>(5);
 }
+
+/// How many of 1000 inputs each stage settles.
+fn shares<Q, const N: usize, const P: usize, const R: usize>(
+    mut input: impl FnMut() -> [[f64; N]; P],
+) -> [usize; Stage::ALL.len()]
+where
+    Q: Predicate<N, P, R>,
+{
+    let mut shares = [0; Stage::ALL.len()];
+    for _ in 0..1000 {
+        shares[settle::<Q, Sign, N, P, R>(&input()).1 as usize] += 1;
+    }
+    shares
+}
+
+fn check_shares<Q, const N: usize, const P: usize, const R: usize>(seed: u64)
+where
+    Q: Predicate<N, P, R>,
+{
+    let mut random = Random(seed);
+    let mut any = |bits: u32, spread: i32| -> [[f64; N]; P] {
+        core::array::from_fn(|_| core::array::from_fn(|_| random.number(bits, spread)))
+    };
+    // Points in general position: the filter, but for one in a hundred thousand or fewer.
+    assert_eq!(shares::<Q, N, P, R>(|| any(53, 0))[Stage::Filter as usize], 1000);
+    // In one hyperplane and, for the lifted predicates, in one sphere or circle: corners of one box.
+    let degenerate = |mut points: [[f64; N]; P]| {
+        let corner = points[0];
+        for (i, point) in points.iter_mut().enumerate() {
+            *point = core::array::from_fn(|j| if i >> j & 1 == 1 { corner[j] } else { -corner[j] });
+            point[N - 1] = corner[N - 1];
+        }
+        points
+    };
+    assert_eq!(shares::<Q, N, P, R>(|| degenerate(any(20, 0)))[Stage::Lattice as usize], 1000);
+    assert!(shares::<Q, N, P, R>(|| degenerate(any(53, 1)))[Stage::Lattice as usize] > 950);
+    // Exponents spread within +-100: little is left to an exact stage.
+    let spread = shares::<Q, N, P, R>(|| any(53, 100));
+    assert!(spread[Stage::Filter as usize] + spread[Stage::DoubleDouble as usize] > 900, "{spread:?}");
+    // Degenerate and spread: expansions have the range for it.
+    assert!(shares::<Q, N, P, R>(|| degenerate(any(53, 60)))[Stage::Expansion as usize] > 700);
+    // The whole range: some input is left to the integers.
+    assert!(shares::<Q, N, P, R>(|| degenerate(any(53, 960)))[Stage::Integer as usize] > 100);
+}
+
+#[test]
+fn each_stage_settles_its_share() {
+    check_shares::<Orient2d, 2, 3, 2>(6);
+    check_shares::<Orient3d, 3, 4, 3>(7);
+    check_shares::<Orient4d, 4, 5, 4>(8);
+    check_shares::<Incircle, 2, 4, 3>(9);
+    check_shares::<Insphere, 3, 5, 4>(10);
+}
