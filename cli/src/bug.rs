@@ -1,7 +1,7 @@
 //! A bug of this program: what panicked is caught, and a file is written with which it can be reproduced.
 
 use crate::codes::Code;
-use crate::failure::{Failure, shell_word};
+use crate::failure::{Failure, shell_word, shown};
 use serde_json::{Value, json};
 use std::backtrace::Backtrace;
 use std::ffi::OsString;
@@ -55,7 +55,7 @@ fn write_record(args: &[OsString], panic: &Value) -> std::io::Result<PathBuf> {
         "version": env!("CARGO_PKG_VERSION"),
         "system": format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
         "command": args.iter().map(|arg| arg.to_string_lossy()).collect::<Vec<_>>(),
-        "folder": std::env::current_dir().ok(),
+        "folder": std::env::current_dir().ok().map(|folder| shown(&folder)),
         "files": files,
         "panic": panic,
     });
@@ -95,5 +95,5 @@ fn describe(path: &Path) -> Option<Value> {
         }
     }
     let full = std::fs::canonicalize(path).ok()?;
-    Some(json!({ "file": full, "bytes": meta.len(), "fnv1a64": format!("{hash:016x}") }))
+    Some(json!({ "file": shown(&full), "bytes": meta.len(), "fnv1a64": format!("{hash:016x}") }))
 }

@@ -103,6 +103,11 @@ fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() && c != '\n' { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
+/// A path as text; names that are no Unicode get replacement characters.
+pub(crate) fn shown(path: &std::path::Path) -> String {
+    path.display().to_string()
+}
+
 /// A path as a word of a shell command that can be pasted.
 pub(crate) fn shell_word(path: &std::path::Path) -> String {
     let text = path.display().to_string();

@@ -111,15 +111,13 @@ impl Output {
                 .place(format!("folder {}", named.display()))
                 .help(format!("mkdir -p {}", shell_word(named))));
         }
-        let Some(file_name) = target.file_name() else {
+        if target.file_name().is_none() {
             return Err(fail(Code::NotWritable, "this names no file").help("name an output file with -o"));
-        };
+        }
         let mut known = unfinished();
         for attempt in 0..100 {
-            let mut temporary = std::ffi::OsString::from(".");
-            temporary.push(file_name);
-            temporary.push(format!(".{}-{attempt}.part", std::process::id()));
-            let temporary = folder.join(temporary);
+            // Not made of the name, which may be as long as names can be.
+            let temporary = folder.join(format!(".welter-{}-{attempt}.part", std::process::id()));
             match OpenOptions::new().write(true).create_new(true).open(&temporary) {
                 Ok(file) => {
                     known.push(temporary.clone());
@@ -133,7 +131,7 @@ impl Output {
             }
         }
         Err(fail(Code::NotWritable, "no temporary name is free beside it")
-            .help(format!("rm {}/.*.part", shell_word(folder))))
+            .help(format!("rm {}/.welter-*.part", shell_word(folder))))
     }
 
     /// Writes with `body` and gives the result its name. `body` returns what the caller wants to know.
@@ -265,5 +263,20 @@ pub(crate) fn plain(error: &io::Error) -> String {
     match text.find(" (os error") {
         Some(end) => text[..end].to_lowercase(),
         None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_of_the_system_have_their_codes() {
+        let code = |kind: ErrorKind| cannot_write(Path::new("folder/out.ply"), &kind.into()).code;
+        assert_eq!(code(ErrorKind::PermissionDenied), Code::NotWritable);
+        assert_eq!(code(ErrorKind::ReadOnlyFilesystem), Code::NotWritable);
+        assert_eq!(code(ErrorKind::NotFound), Code::FolderMissing);
+        assert_eq!(code(ErrorKind::StorageFull), Code::WriteFailed);
+        assert_eq!(code(ErrorKind::Other), Code::WriteFailed);
     }
 }

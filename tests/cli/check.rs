@@ -65,13 +65,14 @@ fn the_verdict_of_a_tetrahedron() {
     assert_eq!(
         ran.out,
         "t.obj\n\
-         \x20 vertices                     4     closed                   yes\n\
-         \x20 triangles                    4     oriented                 yes\n\
-         \x20 components                   1     edge-manifold            yes\n\
-         \x20 genus                        0     vertex-manifold          yes\n\
-         \x20 Euler characteristic         2     degenerate triangles       0\n\
-         \x20 area                   2.36603     duplicate vertices         0\n\
-         \x20 volume                0.166667     self-intersecting pairs    0\n\
+         \x20 vertices                      4     closed                   yes\n\
+         \x20 triangles                     4     oriented                 yes\n\
+         \x20 components                    1     edge-manifold            yes\n\
+         \x20 genus                         0     vertex-manifold          yes\n\
+         \x20 Euler characteristic          2     degenerate triangles       0\n\
+         \x20 area                    2.36603     duplicate vertices         0\n\
+         \x20 volume                 0.166667     duplicate triangles        0\n\
+         \x20 inside-out components         0     self-intersecting pairs    0\n\
          \x20 bounding box  (0, 0, 0) .. (1, 1, 1)\n\
          t.obj: closed, consistently oriented, free of self-intersection\n"
     );

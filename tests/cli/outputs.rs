@@ -109,6 +109,24 @@ fn a_failed_conversion_leaves_nothing_behind() {
 }
 
 #[test]
+fn a_name_as_long_as_names_can_be_is_written() {
+    let bench = bench();
+    let name = format!("{}.ply", "x".repeat(251));
+    bench.run(&format!("convert t.obj -o {name}")).ok();
+    assert!(bench.exists(&name));
+}
+
+#[test]
+fn a_link_stays_and_its_target_is_replaced() {
+    let bench = bench();
+    bench.file("real.ply", "old");
+    std::os::unix::fs::symlink(bench.path("real.ply"), bench.path("link.ply")).unwrap();
+    bench.run("convert t.obj -o link.ply --force").ok();
+    assert!(bench.path("link.ply").is_symlink());
+    assert!(bench.read("real.ply").starts_with(b"ply"));
+}
+
+#[test]
 fn the_same_input_gives_the_same_bytes_for_any_number_of_threads() {
     let bench = bench();
     bench.run("shape ring-overlap -o one.ply -j 1").ok();

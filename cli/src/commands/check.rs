@@ -8,7 +8,7 @@
 
 use crate::codes::Code;
 use crate::examine::{self, Findings, HEADINGS};
-use crate::failure::{Failure, shell_word};
+use crate::failure::{Failure, shell_word, shown};
 use crate::input::{Input, Reading};
 use crate::numbers::grouped;
 use crate::output::Output;
@@ -100,7 +100,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     let mut mesh_of_single = None;
     for file in &args.inputs {
         let mut object = Map::new();
-        object.insert("file".to_owned(), json!(file));
+        object.insert("file".to_owned(), json!(shown(file)));
         let mut failures = Vec::new();
         match check(file, args, run) {
             Ok((mesh, findings)) => {
@@ -140,7 +140,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
         let name = output.name().to_owned();
         let _ = write_surface(output, Format::Ply, &surface, &WriteOptions::default())?;
         console.note(&format!("{}: {} offending triangles", name.display(), grouped(count as u64)));
-        object.insert("save_bad".to_owned(), json!({ "file": name, "triangles": count }));
+        object.insert("save_bad".to_owned(), json!({ "file": shown(&name), "triangles": count }));
     }
     if let Some(failure) = &first {
         object.insert("error".to_owned(), failure.to_json());

@@ -2,7 +2,7 @@
 
 use crate::codes::Code;
 use crate::console::Seconds;
-use crate::failure::{Failure, shell_word};
+use crate::failure::{Failure, shell_word, shown};
 use crate::input::{Input, Reading};
 use crate::numbers::grouped;
 use crate::output::Output;
@@ -126,8 +126,8 @@ fn convert(
         ),
     );
     Ok(json!({
-        "input": input,
-        "output": output,
+        "input": shown(input),
+        "output": shown(output),
         "format": format.extension(),
         "vertices": soup.positions.len(),
         "triangles": soup.triangles.len(),

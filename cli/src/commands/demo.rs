@@ -4,7 +4,7 @@ use crate::codes::Code;
 use crate::commands::shape;
 use crate::console::Seconds;
 use crate::examine::{self, Findings};
-use crate::failure::{Failure, shell_word};
+use crate::failure::{Failure, shell_word, shown};
 use crate::html::Page;
 use crate::numbers::grouped;
 use crate::output::Output;
@@ -70,10 +70,10 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
         "version": env!("CARGO_PKG_VERSION"),
         "command": command,
         "shape": args.name,
-        "folder": args.output,
-        "picture": picture,
-        "surface": surface,
-        "report": html_file,
+        "folder": shown(&args.output),
+        "picture": shown(&picture),
+        "surface": shown(&surface),
+        "report": shown(&html_file),
         "findings": Value::Object(findings.to_json(false)),
         "seconds": seconds.to_json(),
     });
@@ -185,7 +185,7 @@ fn page(args: &Args, findings: &Findings, png: &[u8], surface: &Path) -> String 
     let seconds = findings.seconds.to_json();
     let rows = |value: &Value| -> Vec<(String, String)> {
         let Value::Object(map) = value else { return Vec::new() };
-        map.iter().map(|(name, value)| (name.replace('_', " "), shown(value))).collect()
+        map.iter().map(|(name, value)| (name.replace('_', " "), seconds_of(value))).collect()
     };
     let tables = [
         (
@@ -212,6 +212,6 @@ fn page(args: &Args, findings: &Findings, png: &[u8], surface: &Path) -> String 
     .to_html()
 }
 
-fn shown(value: &Value) -> String {
+fn seconds_of(value: &Value) -> String {
     value.as_f64().map_or_else(|| value.to_string(), |seconds| format!("{seconds:.3}"))
 }

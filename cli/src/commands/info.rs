@@ -1,6 +1,6 @@
 //! `welter info`: what a file holds, without exact tests.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, shown};
 use crate::input::{Input, Reading, cannot_read, format_of};
 use crate::numbers::{bytes, grouped, number, point};
 use crate::run::{Outcome, Run};
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
             }
             Err(failure) if folder => {
                 run.console.error(&failure);
-                list.push(json!({ "file": file, "error": failure.to_json() }));
+                list.push(json!({ "file": shown(file), "error": failure.to_json() }));
                 if exit == 0 {
                     exit = failure.code.exit();
                 }
@@ -154,7 +154,7 @@ impl About {
         let ignored: Vec<Value> =
             self.held.ignored.iter().map(|i| json!({ "what": i.what, "count": i.count })).collect();
         json!({
-            "file": file,
+            "file": shown(file),
             "format": self.format.extension(),
             "bytes": self.bytes,
             "vertices": self.soup.positions.len(),

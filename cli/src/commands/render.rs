@@ -3,7 +3,7 @@
 use crate::codes::Code;
 use crate::commands::check::failures_of;
 use crate::console::Seconds;
-use crate::failure::{Failure, shell_word};
+use crate::failure::{Failure, shell_word, shown};
 use crate::input::{Input, Reading, STANDARD};
 use crate::output::Output;
 use crate::picture::{self, View};
@@ -102,8 +102,8 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     console.progress.clear();
     console.note(&format!("{}: {} x {} pixels", args.output.display(), image.width, image.height));
     console.object(&json!({
-        "input": args.input,
-        "output": args.output,
+        "input": shown(&args.input),
+        "output": shown(&args.output),
         "width": image.width,
         "height": image.height,
         "triangles": mesh.triangles().len(),

@@ -2,7 +2,7 @@
 
 use crate::codes::Code;
 use crate::console::Seconds;
-use crate::failure::Failure;
+use crate::failure::{Failure, shown};
 use crate::input::FormatName;
 use crate::numbers::grouped;
 use crate::output::Output;
@@ -62,7 +62,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     ));
     run.console.object(&json!({
         "shape": name,
-        "output": output,
+        "output": shown(output),
         "format": format.extension(),
         "vertices": mesh.positions().len(),
         "triangles": mesh.triangles().len(),

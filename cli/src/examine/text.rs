@@ -32,6 +32,7 @@ impl Findings {
             (topology.non_manifold_vertices().len(), "non-manifold vertex"),
             (self.inside_out_components, "inside-out component"),
             (self.degenerate.len(), "degenerate triangle"),
+            (self.duplicate_triangles, "duplicate triangle"),
             (self.duplicate_vertices, "duplicate vertex"),
         ] {
             if n > 0 {
@@ -65,12 +66,14 @@ pub(crate) fn facts(f: &Findings) -> Vec<(&'static str, String)> {
         ("Euler characteristic", grouped(topology.euler_characteristic())),
         ("area", number(f.area)),
         ("volume", known(f.volume.map(number))),
+        ("inside-out components", grouped(f.inside_out_components as u64)),
         ("closed", yes(topology.is_closed())),
         ("oriented", yes(topology.is_oriented())),
         ("edge-manifold", yes(topology.is_edge_manifold())),
         ("vertex-manifold", yes(topology.is_vertex_manifold())),
         ("degenerate triangles", grouped(f.degenerate.len() as u64)),
         ("duplicate vertices", grouped(f.duplicate_vertices as u64)),
+        ("duplicate triangles", grouped(f.duplicate_triangles as u64)),
         ("self-intersecting pairs", grouped(f.pairs.len() as u64)),
     ]
 }
