@@ -1,4 +1,5 @@
-//! Tests of `welter_meshing::shapes`: what the table of the module promises, at several resolutions; refusals; bits.
+//! Tests of `welter_meshing::shapes`: what the table of the module promises, at several resolutions;
+//! refusals; bits.
 
 use proptest::prelude::*;
 use welter_kit::entropy::{Entropy, stream};

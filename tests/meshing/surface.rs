@@ -1,5 +1,6 @@
-//! Tests of `welter_meshing::surface`: each defect by a mesh that has it, topology against a slow obvious twin, measures
-//! against rationals and analytic surfaces, and the laws that renumbering, reversing, moving and scaling obey.
+//! Tests of `welter_meshing::surface`: each defect by a mesh that has it, topology against a slow obvious
+//! twin, measures against rationals and analytic surfaces, and the laws that renumbering, reversing, moving
+//! and scaling obey.
 
 mod defects;
 mod laws;

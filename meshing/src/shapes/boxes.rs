@@ -41,8 +41,8 @@ pub struct BoxPair {
 }
 
 impl BoxPair {
-    /// Two boxes whose corners overlap: about 1/12 of each. The offset (1.13, 1.07, 1.19) is no multiple of the grid spacing, so no
-    /// vertex or edge of one lies in a face of the other.
+    /// Two boxes whose corners overlap: about 1/12 of each. The offset (1.13, 1.07, 1.19) is no multiple of
+    /// the grid spacing, so no vertex or edge of one lies in a face of the other.
     #[must_use]
     pub fn overlapping() -> Self {
         let offset = DVec3::new(1.13, 1.07, 1.19);

@@ -1,7 +1,8 @@
 //! Two balls joined by a neck: [`dumbbell`].
 //!
-//! Method: a surface of revolution about the z axis. Its generating line runs over the lower sphere, a fillet that is
-//! tangent to the sphere and to the neck, the cylindrical neck, the other fillet and the upper sphere; it is smooth.
+//! Method: a surface of revolution about the z axis. Its generating line runs over the lower sphere, a fillet
+//! that is tangent to the sphere and to the neck, the cylindrical neck, the other fillet and the upper
+//! sphere; it is smooth.
 //! ```text
 //!    ___           ___
 //!   /   \_________/   \       fillet: circle of radius f that touches both; its centre is at distance

@@ -7,8 +7,8 @@ use thiserror::Error;
 /// Most triangles a generator makes: about 2.4 GB of positions and indices.
 pub const MAX_SHAPE_TRIANGLES: u32 = 1 << 26;
 
-/// Longest length and largest coordinate of a parameter: squares and cubes of it do not overflow. A larger surface is
-/// a scaled copy.
+/// Longest length and largest coordinate of a parameter: squares and cubes of it do not overflow. A larger
+/// surface is a scaled copy.
 pub const MAX_LENGTH: f64 = 1e75;
 
 /// Shortest length of a parameter: squares and cubes of it do not vanish.

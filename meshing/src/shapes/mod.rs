@@ -1,9 +1,9 @@
 //! Built-in surfaces of any resolution.
 //!
-//! Every generator gives a closed surface whose triangles are oriented outward (counterclockwise seen from outside,
-//! so that the signed volume is positive), with the same bits on every machine and for any number of threads. Each has
-//! a parameter struct with defaults of 5,000 to 20,000 triangles. What to expect of the defaults, at any resolution
-//! that resolves them:
+//! Every generator gives a closed surface whose triangles are oriented outward (counterclockwise seen from
+//! outside, so that the signed volume is positive), with the same bits on every machine and for any number of
+//! threads. Each has a parameter struct with defaults of 5,000 to 20,000 triangles. What to expect of the
+//! defaults, at any resolution that resolves them:
 //!
 //! | name | components | genus of each | Euler characteristic | intersects itself |
 //! | --- | --- | --- | --- | --- |

@@ -1,8 +1,7 @@
 //! Moebius bands of thickness: [`moebius`], [`double_moebius`].
 //!
-//! A thickened band is a solid whose boundary is closed and orientable: a torus, since the rectangle that is carried
-//! round meets itself after its half turn.
-//! Method: a rectangle swept along a circle.
+//! A thickened band is a solid whose boundary is closed and orientable: a torus, since the rectangle that is
+//! carried round meets itself after its half turn. Method: a rectangle swept along a circle.
 
 use super::error::{ShapeError, divisions, require, require_length, require_triangles};
 use super::sweep::{Sweep, sweep};
@@ -47,8 +46,9 @@ pub fn moebius(parameters: &Moebius) -> Result<ClosedOrientedMesh, ShapeError> {
     band(parameters, 1)
 }
 
-/// A Moebius band of thickness that goes twice round the same circle: genus 1. With one half turn in all, the second
-/// lap stands at right angles to the first, and the two cross along the whole circle; the winding number is 2 there.
+/// A Moebius band of thickness that goes twice round the same circle: genus 1. With one half turn in all, the
+/// second lap stands at right angles to the first, and the two cross along the whole circle; the winding
+/// number is 2 there.
 ///
 /// ```
 /// use welter_meshing::shapes::{Moebius, double_moebius};

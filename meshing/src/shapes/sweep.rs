@@ -4,9 +4,9 @@
 //! about the tangent by some angle; the opposite turn, and the twist asked for, are spread evenly over the curve.
 //! Open sweeps are closed by flat caps of rings that shrink to a centre.
 //!
-//! Does not promise: freedom from self-intersection. The surface cuts itself where the curve bends more tightly than
-//! the profile is wide, or comes nearer to itself than that.
-//! Complexity: linear in the number of vertices.
+//! Does not promise: freedom from self-intersection. The surface cuts itself where the curve bends more
+//! tightly than the profile is wide, or comes nearer to itself than that. Complexity: linear in the number of
+//! vertices.
 
 use super::error::{MAX_SHAPE_TRIANGLES, ShapeError, finish, require, require_coordinates};
 use super::rings::RingBuilder;

@@ -1,10 +1,10 @@
 //! [`ClosedOrientedMesh`]: a surface without boundary whose triangles agree on its two sides.
 //!
-//! Promises: along every edge `{u, v}` as many triangles run from `u` to `v` as from `v` to `u`. So the surface is a
-//! cycle: it has no boundary, it encloses a signed volume, and every point off it has a winding number. Allowed
-//! are an edge with 2 triangles (one each way) and an edge with 4, 6, ... triangles, half of them each way, as
-//! where two cubes meet along an edge; vertices where several fans meet; triangles listed twice, once each way
-//! or otherwise balanced; any number of components; unused vertices; the empty mesh.
+//! Promises: along every edge `{u, v}` as many triangles run from `u` to `v` as from `v` to `u`. So the
+//! surface is a cycle: it has no boundary, it encloses a signed volume, and every point off it has a winding
+//! number. Allowed are an edge with 2 triangles (one each way) and an edge with 4, 6, ... triangles, half of
+//! them each way, as where two cubes meet along an edge; vertices where several fans meet; triangles listed
+//! twice, once each way or otherwise balanced; any number of components; unused vertices; the empty mesh.
 //!
 //! Does not promise: freedom from self-intersection, positive volume, or triangles with area.
 //!

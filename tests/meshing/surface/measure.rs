@@ -171,7 +171,10 @@ fn mean_curvature_converges_on_sphere_and_torus() {
     let ball = |h| sphere(&Sphere { radius, edge_length: h, ..Sphere::default() }).unwrap();
     let on_sphere = |p: DVec3| p / (radius * radius);
     let errors = [0.4, 0.2, 0.1].map(|h| error(&ball(h), &on_sphere));
-    assert!(errors[0] < 0.02 && errors[1] < errors[0] / 1.9 && errors[2] < errors[1] / 1.9, "{errors:?}");
+    for e in errors.windows(2) {
+        let order = (e[0] / e[1]).log2();
+        assert!((1.6..2.0).contains(&order), "sphere curvature: order {order}, errors {errors:?}");
+    }
 }
 
 #[test]

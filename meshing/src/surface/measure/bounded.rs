@@ -16,7 +16,8 @@ pub struct Bounded {
 }
 
 impl Bounded {
-    /// The value as one `f64`: infinite where it is too large, and rounded to a multiple of 2^-1074 where it is tiny.
+    /// The value as one `f64`: infinite where it is too large, and rounded to a multiple of 2^-1074 where it
+    /// is tiny.
     #[must_use]
     pub fn value(self) -> f64 {
         libm::scalbn(self.significand, self.exponent)

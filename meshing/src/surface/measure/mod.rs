@@ -1,16 +1,17 @@
 //! Numbers of a surface: area, volume, extent, curvature, angles and edge lengths.
 //!
-//! Promises: no overflow and no NaN on the way, whatever the coordinates of a [`TriMesh`](super::TriMesh): everything is computed on
-//! coordinates scaled by a power of two (which is exact) to the extent of the surface. [`area_bounded`] and
-//! [`signed_volume_bounded`] state how far the true value can be; they also express values beyond the range of
-//! `f64`. Scaling a mesh by a power of two scales the results exactly, bit for bit; so does translating it, as far
-//! as the translation of its vertices is exact. The same bits for any number of threads.
+//! Promises: no overflow and no NaN on the way, whatever the coordinates of a [`TriMesh`](super::TriMesh):
+//! everything is computed on coordinates scaled by a power of two (which is exact) to the extent of the
+//! surface. [`area_bounded`] and [`signed_volume_bounded`] state how far the true value can be; they also
+//! express values beyond the range of `f64`. Scaling a mesh by a power of two scales the results bit for bit (short
+//! of subnormal ones), and a translation that is exact for every vertex changes no bit of them. The same bits for any
+//! number of threads.
 //!
-//! Does not promise: exact values; these are constructions. Signs that matter are to be asked of predicates, or taken
-//! from a value that exceeds its bound ([`Bounded::sign`]).
+//! Does not promise: exact values; these are constructions. Signs that matter are to be asked of predicates,
+//! or taken from a value that exceeds its bound ([`Bounded::sign`]).
 //!
-//! Method: coordinate differences, scaled; compensated sums [Neumaier74] over chunks of fixed size, combined in order.
-//! Complexity: linear, parallel.
+//! Method: coordinate differences, scaled; compensated sums [Neumaier74] over chunks of fixed size, combined
+//! in order. Complexity: linear, parallel.
 
 mod bounded;
 mod curvature;

@@ -4,18 +4,19 @@
 //! ```text
 //!   6 V = sum of det [a - o; b - a; c - a]
 //! ```
-//! With `o` the smallest corner of the bounding box, and each axis scaled to its extent, all entries are at most 1 in
-//! magnitude, so neither a far-away surface nor a flat one loses digits to its place or proportions; and since two of the
-//! rows are sides of the triangle, errors are in proportion to areas, not to the number of triangles.
+//! With `o` the smallest corner of the bounding box, and each axis scaled to its extent, all entries are at
+//! most 1 in magnitude, so neither a far-away surface nor a flat one loses digits to its place or
+//! proportions; and since two of the rows are sides of the triangle, errors are in proportion to areas, not
+//! to the number of triangles.
 //!
 //! Error of a term, with `u = 2^-53` and `p` the determinant with magnitudes for its entries and plus for minus:
 //! an entry carries one rounding, a product of three entries two more, the sums of the expression three; so at most
 //! `8 u p (1 + 16 u)`. The bound below uses 9 to pay for itself.
 //!
-//! Area: half the length of the cross product of two sides, each coordinate one rounding off. A coordinate of the cross
-//! product is off by at most `4.1 u` times the sum of the magnitudes of its two products (`2 u` from the entries, `u` from
-//! the product, `u` from the difference); so its length is off by at most `4.1 u` times the length of the vector of those
-//! sums, and `3 u` of itself from the norm.
+//! Area: half the length of the cross product of two sides, each coordinate one rounding off. A coordinate of
+//! the cross product is off by at most `4.1 u` times the sum of the magnitudes of its two products (`2 u`
+//! from the entries, `u` from the product, `u` from the difference); so its length is off by at most `4.1 u`
+//! times the length of the vector of those sums, and `3 u` of itself from the norm.
 
 use super::bounded::Bounded;
 use super::extent::{self, Scale};
@@ -67,8 +68,8 @@ pub fn area_bounded(mesh: &TriMesh) -> Bounded {
 }
 
 /// The volume that the surface encloses, counted with its winding number: positive where triangles are
-/// counterclockwise seen from outside. Infinite only where it is beyond the range of `f64`. For a surface with boundary,
-/// that of the cone over it from the smallest corner of its bounding box.
+/// counterclockwise seen from outside. Infinite only where it is beyond the range of `f64`. For a surface
+/// with boundary, that of the cone over it from the smallest corner of its bounding box.
 ///
 /// ```
 /// use welter_meshing::{shapes, surface::measure::signed_volume};

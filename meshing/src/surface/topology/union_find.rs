@@ -1,7 +1,8 @@
 //! Disjoint sets of small integers: [`UnionFind`].
 //!
-//! Method: path halving and linking by index, the smaller root wins [Tarjan75]; so the root of a set is its smallest
-//! member, whatever the order of the unions. Complexity: O(log n) amortised a call, in practice constant.
+//! Method: path halving and linking by index, the smaller root wins [Tarjan75]; so the root of a set is its
+//! smallest member, whatever the order of the unions. Complexity: O(log n) amortised a call, in practice
+//! constant.
 
 /// A partition of `0..n`.
 pub(crate) struct UnionFind {
