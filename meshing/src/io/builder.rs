@@ -54,10 +54,15 @@ impl Builder {
         self.soup.positions.len() as u64
     }
 
+    /// Adds a vertex. A NaN loses its sign and payload, which text cannot hold.
     #[inline]
     pub(super) fn vertex(&mut self, position: DVec3, at: Place) -> Result<(), ReadError> {
         self.check_vertices(self.vertices() + 1, at)?;
-        self.soup.positions.push(position);
+        self.soup.positions.push(if position.is_nan() {
+            DVec3::select(position.is_nan_mask(), DVec3::NAN, position)
+        } else {
+            position
+        });
         Ok(())
     }
 

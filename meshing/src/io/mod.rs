@@ -2,7 +2,8 @@
 //!
 //! **Promises.**
 //! * Every finite coordinate of a text file becomes the nearest f64, and what [`write()`] writes as text or as PLY comes
-//!   back bit for bit. Infinite and NaN coordinates are read as they are; `TriMesh::new` names their vertices.
+//!   back bit for bit. Infinite and NaN coordinates are read as they are (a NaN without sign and payload);
+//!   `TriMesh::new` names their vertices.
 //! * Vertices are those of the file, in its order, none lost, merged or duplicated. STL has no vertices of its own: its
 //!   corners are welded where their coordinates are equal (`-0 == 0`; NaN equals nothing).
 //! * Polygons become triangles of the same orientation, without overlap where the polygon is simple (see `polygon.rs`).

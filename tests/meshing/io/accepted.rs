@@ -65,6 +65,19 @@ fn non_finite_coordinates_survive_every_text_format() {
     }
 }
 
+#[test]
+fn a_nan_of_any_bits_is_one_nan() {
+    let mut file =
+        b"ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty double y\n\
+                     property float z\nend_header\n"
+            .to_vec();
+    file.extend(0xffff_ffff_u32.to_le_bytes());
+    file.extend(0xfff8_0000_0000_0007_u64.to_le_bytes());
+    file.extend((-0.0_f32).to_le_bytes());
+    let [x, y, z] = read(Format::Ply, file).unwrap().positions[0].to_array().map(f64::to_bits);
+    assert_eq!([x, y, z], [f64::NAN.to_bits(), f64::NAN.to_bits(), (-0.0_f64).to_bits()]);
+}
+
 /// A PLY file with every number type, other elements, lists among the vertices and any order of properties.
 fn rich_ply(format: &str) -> Vec<u8> {
     let header = format!(
