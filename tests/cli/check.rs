@@ -287,5 +287,6 @@ fn real_meshes_have_their_known_topology() {
         );
     }
     let pairs = |k: usize| object["files"][k]["self_intersecting_pairs"].as_u64().unwrap();
-    assert_eq!([pairs(0), pairs(1), pairs(4), pairs(5), pairs(6)], [338, 4_250, 64, 0, 0]);
+    // As in the tests of the exact list, where rationals confirm them.
+    assert_eq!([0, 1, 2, 3, 4, 5, 6].map(pairs), [338, 4_250, 7_556, 52, 64, 0, 0]);
 }

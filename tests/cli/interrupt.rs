@@ -21,7 +21,9 @@ fn waiting(bench: &Bench, json: bool) -> Child {
 
 fn interrupt(mut child: Child) -> Ran {
     let _held_open = child.stdin.take();
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    // The shell's own `kill`: there is not always a program of that name.
+    let kill = format!("kill -INT {}", child.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
     Ran::of(child.wait_with_output().unwrap())
 }
 
