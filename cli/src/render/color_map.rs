@@ -2,11 +2,12 @@
 //!
 //! In the Oklab space [Ottosson20] with lightness L, chroma C and hue h, at position t in [0, 1]:
 //! ```text
-//! sequential   L = 0.28 + 0.62 t     h = 300 - 200 t degrees (violet, blue, green, yellow)   C = 0.15
-//! diverging    L = 0.93 - 0.43 s     h = 255 (t < 1/2) or 45 degrees                         C = 0.16 s,  s = |2t - 1|
+//! sequential   L = 0.28 + 0.62 t     h = 300 - 200 t degrees (violet, blue, green, yellow)   C = 0.093 + 0.22 (t - 0.42)^2
+//! diverging    L = 0.93 - 0.43 s     h = 255 (t < 1/2) or 45 degrees (blue, orange)          C = 0.14 s,  s = |2t - 1|
 //! ```
-//! C is reduced to what sRGB can show at that lightness and hue (bisection). Lightness alone orders the sequential map, so
-//! that it survives greyscale print and colour-blind eyes; blue against orange does so for the diverging one.
+//! C stays just within what sRGB can show at that lightness and hue, least for the greenish blue near t = 0.42: a smooth
+//! curve, so that no step stands out. Lightness alone orders the sequential map, so that it survives greyscale print and
+//! colour-blind eyes; blue against orange does so for the diverging one.
 
 use super::color::Rgb;
 
@@ -28,10 +29,12 @@ impl ColorMap {
         }
         let t = t.clamp(0.0, 1.0);
         match self {
-            Self::Sequential => displayable(0.28 + 0.62 * t, 0.15, 300.0 - 200.0 * t),
+            Self::Sequential => {
+                of_polar(0.28 + 0.62 * t, 0.093 + 0.22 * (t - 0.42) * (t - 0.42), 300.0 - 200.0 * t)
+            }
             Self::Diverging => {
                 let s = (2.0 * t - 1.0).abs();
-                displayable(0.93 - 0.43 * s, 0.16 * s, if t < 0.5 { 255.0 } else { 45.0 })
+                of_polar(0.93 - 0.43 * s, 0.14 * s, if t < 0.5 { 255.0 } else { 45.0 })
             }
         }
     }
@@ -42,21 +45,11 @@ impl ColorMap {
     }
 }
 
-/// The colour of this lightness and hue with the largest chroma up to `chroma` that sRGB can show.
-fn displayable(lightness: f64, chroma: f64, hue_degrees: f64) -> Rgb {
+/// Lightness, chroma and hue to linear sRGB.
+fn of_polar(lightness: f64, chroma: f64, hue_degrees: f64) -> Rgb {
     let hue = hue_degrees.to_radians();
-    let (cos, sin) = (libm::cos(hue), libm::sin(hue));
-    let at = |c: f64| linear_srgb(lightness, c * cos, c * sin);
-    let shown = |c: f64| at(c).iter().all(|v| (0.0..=1.0).contains(v));
-    let (mut low, mut high) = (0.0, chroma);
-    if shown(high) {
-        low = high;
-    }
-    for _ in 0..24 {
-        let middle = 0.5 * (low + high);
-        if shown(middle) { low = middle } else { high = middle }
-    }
-    let [r, g, b] = at(low).map(|v| v as f32);
+    let [r, g, b] =
+        linear_srgb(lightness, chroma * libm::cos(hue), chroma * libm::sin(hue)).map(|v| v as f32);
     Rgb::new(r, g, b)
 }
 

@@ -8,7 +8,7 @@
 //! Does not promise: physical light, or the order of translucent surfaces beyond the sixth.
 //! Method: see `raster`, `light`, `shade`, `picture`.
 //! Complexity: O(triangles + samples), each times a small number of light maps.
-#![allow(dead_code, unused_imports, unreachable_pub)] // the commands take up its parts one by one
+#![allow(dead_code, unused_imports)] // the commands take up its parts one by one
 
 mod camera;
 mod caption;

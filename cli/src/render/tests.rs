@@ -369,3 +369,20 @@ fn fields_show_their_colours_and_nan_is_grey() {
     let [r, g, b] = colour(&values);
     assert!(r.abs_diff(g) < 24 && g.abs_diff(b) < 24, "grey: {r} {g} {b}");
 }
+
+/// The picture of a cube, byte for byte: the same on every machine, since nothing in it depends on a platform's mathematics.
+#[test]
+fn a_picture_is_the_same_everywhere() {
+    let (positions, triangles) = cube(1.0);
+    let highlighted = [TriId(3)];
+    let mut l = layer(&positions, &triangles);
+    l.highlighted = &highlighted;
+    l.style.edges = Some(Edges::default());
+    let mut scene = Scene { layers: vec![l], size: [160, 160], ..Scene::default() };
+    scene.caption.title = "cube".into();
+    // FNV-1a of the bytes.
+    let hash = drawn(&scene).pixels.as_flattened().iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    assert_eq!(hash, 0x0f0b_bea9_a804_a925, "{hash:#018x}");
+}
