@@ -7,6 +7,7 @@ mod family;
 mod intersection;
 mod laws;
 mod oracle;
+mod perturbation;
 mod rates;
 mod regressions;
 mod sos;
