@@ -15,8 +15,8 @@
 use crate::arithmetic::double_double::{self, DoubleDoubles, Magnitude, Magnitudes, Scale};
 use crate::arithmetic::expansion::{self, Expansion, Expansions};
 use crate::arithmetic::fixed_point;
-use crate::arithmetic::lattice::{Extent, Lattice, Words};
-use crate::arithmetic::scaled::Exact;
+use crate::arithmetic::lattice::{self, Extent, Lattice, Words};
+use crate::arithmetic::scaled::{Exact, power_of_two};
 use crate::arithmetic::small::{self, Small};
 use crate::polynomial::Ring;
 use crate::{Sign, stats};
@@ -149,14 +149,45 @@ where
     A: Answer,
 {
     let extent = Extent::of(points)?;
+    if extent.is_tiny() {
+        by_raised_lattice::<Q, A, N, P, R>(points)
+    } else {
+        on_lattice::<Q, A, N, P, R>(points, extent, 0)
+    }
+}
+
+/// [`by_lattice`] for coordinates near the lower end of the exponent range.
+#[cold]
+#[inline(never)]
+fn by_raised_lattice<Q, A, const N: usize, const P: usize, const R: usize>(
+    points: &[[f64; N]; P],
+) -> Option<A>
+where
+    Q: Predicate<N, P, R>,
+    A: Answer,
+{
+    let raised = points.map(|point| point.map(|x| x * power_of_two(lattice::RAISE)));
+    on_lattice::<Q, A, N, P, R>(&raised, Extent::of(&raised)?, -lattice::RAISE)
+}
+
+/// The answer for coordinates times `2^exponent`.
+#[inline(always)]
+fn on_lattice<Q, A, const N: usize, const P: usize, const R: usize>(
+    points: &[[f64; N]; P],
+    extent: Extent,
+    exponent: i32,
+) -> Option<A>
+where
+    Q: Predicate<N, P, R>,
+    A: Answer,
+{
     if let Some((unit, rows)) = small::rows(points, extent, Q::DEGREE) {
         let value = Q::polynomial::<Small>(&rows);
-        return Some(A::of_exact(&value, Q::DEGREE * unit));
+        return Some(A::of_exact(&value, Q::DEGREE * (unit + exponent)));
     }
     let lattice = Lattice::of(points, extent)?;
-    let rows = lattice.rows();
-    let value = Q::polynomial::<Words>(&rows);
-    Some(A::of_exact(&value, Q::DEGREE * lattice.exponent))
+    let value = Q::polynomial::<Words>(&lattice.rows());
+    Some(A::of_exact(&value, Q::DEGREE * (lattice.exponent + exponent)))
 }
 
 /// In double-double arithmetic, for values above their error bound.

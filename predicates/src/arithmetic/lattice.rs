@@ -33,12 +33,14 @@ fn max(a: f64, b: f64) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Extent(i32);
 
-/// Below this, an extent would make the scale overflow: tinier coordinates are scaled like these, and then are no
-/// integers unless they are zero.
+/// Below this, an extent would make the scale overflow.
 const LEAST_EXTENT: i32 = -930;
 
+/// By what the coordinates of a smaller extent are to be multiplied first: exact, since they are tiny.
+pub(crate) const RAISE: i32 = 512;
+
 impl Extent {
-    /// `None` if a coordinate is not finite, or all together overflow.
+    /// `None` if a coordinate is not finite.
     #[inline(always)]
     pub(crate) fn of<const N: usize>(points: &[[f64; N]]) -> Option<Self> {
         // Four short chains of dependent operations.
@@ -46,20 +48,27 @@ impl Extent {
         let mut sums = [0.0; 4];
         for (k, x) in points.as_flattened().iter().enumerate() {
             let magnitude = x.abs();
-            sums[k % 4] += magnitude;
+            // Infinite or NaN in the end if a coordinate is: the factor keeps others from overflowing.
+            sums[k % 4] += magnitude * (1.0 / 32.0);
             maxima[k % 4] = max(magnitude, maxima[k % 4]);
         }
-        // The sum is infinite or NaN if a coordinate is.
         let sum: f64 = (sums[0] + sums[1]) + (sums[2] + sums[3]);
         let largest: f64 = max(max(maxima[0], maxima[1]), max(maxima[2], maxima[3]));
         let top = (largest.to_bits() >> 52) as i32 - 1023;
-        sum.is_finite().then_some(Self(top.max(LEAST_EXTENT)))
+        sum.is_finite().then_some(Self(top))
+    }
+
+    /// Whether the coordinates must be multiplied by `2^RAISE` first.
+    #[inline(always)]
+    pub(crate) fn is_tiny(self) -> bool {
+        self.0 < LEAST_EXTENT
     }
 
     /// The power of two that brings the largest coordinate below `2^bits`.
     #[inline(always)]
     pub(crate) fn shift(self, bits: i32) -> i32 {
-        bits - 1 - self.0
+        // Of raised coordinates only zeros are tiny: any shift will do.
+        bits - 1 - self.0.max(LEAST_EXTENT)
     }
 }
 
@@ -260,7 +269,8 @@ mod tests {
         assert!(lattice([[1.0, -3.0], [-1.0 - f64::EPSILON, power_of_two(-1000)]]).is_none());
         assert!(lattice([[f64::MAX], [f64::from_bits(1)]]).is_none());
         assert!(lattice([[power_of_two(1000)], [f64::from_bits(1)]]).is_none());
-        assert!(lattice([[f64::from_bits(1)], [0.0]]).is_none());
+        assert!(Extent::of(&[[f64::from_bits(1)], [0.0]]).expect("finite").is_tiny());
+        assert!(lattice([[f64::MAX; 5]; 4]).is_some());
         assert!(lattice([[f64::INFINITY], [1.0]]).is_none());
         assert!(lattice([[f64::NAN, f64::MAX]]).is_none());
         assert!(lattice([[1.0, f64::NAN, 2.0]]).is_none());
