@@ -14,6 +14,7 @@
 
 use welter_predicates::intersection::triangle_intersects_box;
 
+use super::descent::{Met, sort_pairs};
 use super::{Box3, BoxTree};
 use crate::surface::{TriId, TriMesh};
 use crate::{Cancelled, Monitor};
@@ -94,9 +95,9 @@ impl<'m> Bvh<'m> {
     /// # Errors
     /// [`Cancelled`] by the monitor.
     pub fn self_pairs(&self, monitor: &Monitor<'_>) -> Result<Vec<[TriId; 2]>, Cancelled> {
-        let visit = |i: u32, j: u32, out: &mut Vec<[TriId; 2]>| {
+        let visit = |i: u32, j: u32, met: Met, out: &mut Vec<[TriId; 2]>| {
             let [i, j] = [TriId(i.min(j)), TriId(i.max(j))];
-            if self.triangle_box(i).meets(&self.triangle_box(j)) {
+            if met == Met::Surely || self.triangle_box(i).meets(&self.triangle_box(j)) {
                 out.push([i, j]);
             }
         };
@@ -110,8 +111,8 @@ impl<'m> Bvh<'m> {
     /// [`Cancelled`] by the monitor.
     pub fn pairs_with(&self, other: &Bvh<'_>, monitor: &Monitor<'_>) -> Result<Vec<[TriId; 2]>, Cancelled> {
         let tree = other.tree.in_frame(self.tree.frame, |i| triangle_box(other.mesh, i));
-        let visit = |i: u32, j: u32, out: &mut Vec<[TriId; 2]>| {
-            if self.triangle_box(TriId(i)).meets(&other.triangle_box(TriId(j))) {
+        let visit = |i: u32, j: u32, met: Met, out: &mut Vec<[TriId; 2]>| {
+            if met == Met::Surely || self.triangle_box(TriId(i)).meets(&other.triangle_box(TriId(j))) {
                 out.push([TriId(i), TriId(j)]);
             }
         };
@@ -145,9 +146,8 @@ fn triangle_box(mesh: &TriMesh, triangle: usize) -> Box3 {
     Box3::of(mesh.corners(TriId(triangle as u32)))
 }
 
-fn sorted<T: Ord + Send>(found: Result<Vec<T>, Cancelled>) -> Result<Vec<T>, Cancelled> {
-    use rayon::slice::ParallelSliceMut;
+fn sorted(found: Result<Vec<[TriId; 2]>, Cancelled>) -> Result<Vec<[TriId; 2]>, Cancelled> {
     let mut found = found?;
-    found.par_sort_unstable();
+    sort_pairs(&mut found, |t| t.0);
     Ok(found)
 }

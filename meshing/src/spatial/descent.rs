@@ -24,27 +24,50 @@ const STEPS_A_LOOK: u32 = 1 << 14;
 /// Two nodes to compare, of the same tree or of two; equal nodes of the same tree stand for all pairs below.
 type Task = (u32, u32);
 
-/// Calls `visit(i, j, out)` once for each two different boxes whose mapped boxes meet, in either order, and joins `out`.
+/// Calls `visit(i, j, met, out)` once for each two different boxes whose mapped boxes meet, in either order, and joins `out`.
 pub(crate) fn self_pairs<T: Send>(
     tree: &BoxTree,
     monitor: &Monitor<'_>,
     stage: &'static str,
-    visit: impl Fn(u32, u32, &mut Vec<T>) + Sync,
+    visit: impl Fn(u32, u32, Met, &mut Vec<T>) + Sync,
 ) -> Result<Vec<T>, Cancelled> {
     Descent { left: tree, right: tree, same: true }.run(monitor, stage, visit)
 }
 
-/// Calls `visit(i, j, out)` once for each box `i` of `left` and `j` of `right` whose mapped boxes meet, and joins `out`.
+/// Calls `visit(i, j, met, out)` once for each box `i` of `left` and `j` of `right` whose mapped boxes meet, and joins `out`.
 /// Both trees are in the same frame.
 pub(crate) fn pairs_between<T: Send>(
     left: &BoxTree,
     right: &BoxTree,
     monitor: &Monitor<'_>,
     stage: &'static str,
-    visit: impl Fn(u32, u32, &mut Vec<T>) + Sync,
+    visit: impl Fn(u32, u32, Met, &mut Vec<T>) + Sync,
 ) -> Result<Vec<T>, Cancelled> {
     debug_assert_eq!(left.frame, right.frame);
     Descent { left, right, same: false }.run(monitor, stage, visit)
+}
+
+/// What mapped boxes that meet say of the exact boxes. The map keeps order, so coordinates that are mapped to different
+/// numbers are in the same strict order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Met {
+    /// The exact boxes meet.
+    Surely,
+    /// Some coordinates are mapped to the same number: the exact boxes may be apart.
+    Perhaps,
+}
+
+impl Met {
+    #[inline]
+    fn of(a: &Bvh2Node, b: &Bvh2Node) -> Self {
+        let (a, b) = (a.aabb(), b.aabb());
+        if (a.min.cmplt(b.max) & b.min.cmplt(a.max)).all() { Self::Surely } else { Self::Perhaps }
+    }
+}
+
+/// Sorts pairs of numbers in parallel.
+pub(crate) fn sort_pairs<T: Copy + Send>(pairs: &mut [[T; 2]], number: impl Fn(T) -> u32 + Sync) {
+    pairs.par_sort_unstable_by_key(|&[i, j]| u64::from(number(i)) << 32 | u64::from(number(j)));
 }
 
 struct Descent<'t> {
@@ -59,7 +82,7 @@ impl Descent<'_> {
         &self,
         monitor: &Monitor<'_>,
         stage: &'static str,
-        visit: impl Fn(u32, u32, &mut Vec<T>) + Sync,
+        visit: impl Fn(u32, u32, Met, &mut Vec<T>) + Sync,
     ) -> Result<Vec<T>, Cancelled> {
         let tasks = self.split();
         let stage = monitor.stage(stage, tasks.len() as u64);
@@ -137,7 +160,7 @@ impl Descent<'_> {
         &self,
         task: Task,
         stage: &Stage<'_>,
-        visit: &impl Fn(u32, u32, &mut Vec<T>),
+        visit: &impl Fn(u32, u32, Met, &mut Vec<T>),
     ) -> Result<Vec<T>, Cancelled> {
         let mut found = Vec::new();
         let mut stack = vec![task];
@@ -151,7 +174,7 @@ impl Descent<'_> {
             let (a, b) = (&self.left.bvh.nodes[i as usize], &self.right.bvh.nodes[j as usize]);
             if a.is_leaf() && b.is_leaf() {
                 if !self.same || i != j {
-                    visit(self.left.box_index(a), self.right.box_index(b), &mut found);
+                    visit(self.left.box_index(a), self.right.box_index(b), Met::of(a, b), &mut found);
                 }
             } else {
                 self.expand((i, j), &mut stack);

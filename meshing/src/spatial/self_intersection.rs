@@ -100,14 +100,14 @@ impl Bvh<'_> {
             self.tree(),
             monitor,
             "intersecting triangle pairs",
-            |i, j, found: &mut Vec<[TriId; 2]>| {
+            |i, j, _, found: &mut Vec<[TriId; 2]>| {
                 let (i, j) = (i.min(j), i.max(j));
                 if meet_in_more(positions, corners[i as usize], corners[j as usize]) {
                     found.push([TriId(i), TriId(j)]);
                 }
             },
         )?;
-        pairs.par_sort_unstable();
+        descent::sort_pairs(&mut pairs, |t| t.0);
         Ok(pairs)
     }
 }

@@ -32,6 +32,7 @@ use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use rayon::prelude::*;
 
+use super::descent::{Met, sort_pairs};
 use super::frame::Frame;
 use super::{Box3, descent};
 use crate::{Cancelled, Monitor};
@@ -153,12 +154,12 @@ impl BoxTree {
     /// [`Cancelled`] by the monitor.
     pub fn self_pairs(&self, boxes: &[Box3], monitor: &Monitor<'_>) -> Result<Vec<[u32; 2]>, Cancelled> {
         let mut pairs =
-            descent::self_pairs(self, monitor, "pairs of boxes", |i, j, out: &mut Vec<[u32; 2]>| {
-                if boxes[i as usize].meets(&boxes[j as usize]) {
+            descent::self_pairs(self, monitor, "pairs of boxes", |i, j, met, out: &mut Vec<[u32; 2]>| {
+                if met == Met::Surely || boxes[i as usize].meets(&boxes[j as usize]) {
                     out.push([i.min(j), i.max(j)]);
                 }
             })?;
-        pairs.par_sort_unstable();
+        sort_pairs(&mut pairs, |i| i);
         Ok(pairs)
     }
 
@@ -179,13 +180,13 @@ impl BoxTree {
             &other,
             monitor,
             "pairs of boxes",
-            |i, j, out: &mut Vec<[u32; 2]>| {
-                if boxes[i as usize].meets(&other_boxes[j as usize]) {
+            |i, j, met, out: &mut Vec<[u32; 2]>| {
+                if met == Met::Surely || boxes[i as usize].meets(&other_boxes[j as usize]) {
                     out.push([i, j]);
                 }
             },
         )?;
-        pairs.par_sort_unstable();
+        sort_pairs(&mut pairs, |i| i);
         Ok(pairs)
     }
 
