@@ -53,7 +53,7 @@ fn every_source_says_what_it_is() {
 
 #[test]
 fn every_library_states_its_promises() {
-    for name in ["tracking", "fluids"] {
+    for name in ["predicates", "meshing", "tracking", "fluids"] {
         let path = format!("{name}/src/lib.rs");
         let sources = files(&["rs"]);
         let file =
