@@ -8,7 +8,6 @@
 //! Does not promise: physical light, or the order of translucent surfaces beyond the sixth.
 //! Method: see `raster`, `light`, `shade`, `picture`.
 //! Complexity: O(triangles + samples), each times a small number of light maps.
-#![allow(dead_code, unused_imports)] // the commands take up its parts one by one
 
 mod camera;
 mod caption;
@@ -32,10 +31,12 @@ mod surface;
 mod tests;
 
 pub(crate) use color::Rgb;
+#[allow(unused_imports)] // for the commands that compute fields
 pub(crate) use color_map::ColorMap;
 pub(crate) use image::Image;
 pub(crate) use picture::{memory_estimate, render};
+#[allow(unused_imports)] // for the commands that compute fields
+pub(crate) use scene::{Background, Field};
 pub(crate) use scene::{
-    Background, Camera, Caption, Cut, Edges, Field, Layer, MAX_SIDE, Paint, RenderError, Scene, Shading,
-    Style, Up,
+    Camera, Caption, Cut, Edges, Layer, MAX_SIDE, Paint, RenderError, Scene, Shading, Style, Up,
 };

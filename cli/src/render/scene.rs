@@ -50,13 +50,6 @@ impl Default for Scene<'_> {
     }
 }
 
-impl<'a> Scene<'a> {
-    /// One mesh in the default style.
-    pub(crate) fn of(mesh: &'a TriMesh) -> Self {
-        Self { layers: vec![Layer::of(mesh)], ..Self::default() }
-    }
-}
-
 /// One surface and how it looks.
 #[derive(Clone, Debug)]
 pub(crate) struct Layer<'a> {
@@ -93,8 +86,10 @@ pub(crate) enum Paint<'a> {
     /// A colour a triangle.
     Triangles(&'a [[u8; 3]]),
     /// A number a vertex, interpolated; see [`Field`].
+    #[allow(dead_code)] // for the commands that compute fields
     VertexField(Field<'a>),
     /// A number a triangle.
+    #[allow(dead_code)] // for the commands that compute fields
     TriangleField(Field<'a>),
 }
 

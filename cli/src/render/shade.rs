@@ -11,7 +11,7 @@ use super::color::Rgb;
 use super::light::Lights;
 use super::model::Model;
 use super::normals;
-use super::scene::{Edges, Field, Paint, RenderError, Scene, Shading, Style};
+use super::scene::{Edges, Field, Paint, Scene, Shading, Style};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
@@ -86,7 +86,6 @@ pub(super) struct Facet {
     edge: [DVec3; 3],
     /// Pixels a unit of `edge . d`.
     pixels: [f64; 3],
-    determinant: f64,
     /// Facet normal and corner normals, toward the eye.
     side: Vec3,
     corners: [Vec3; 3],
@@ -176,7 +175,6 @@ impl<'a> Shader<'a> {
             layer: index,
             edge,
             pixels,
-            determinant,
             side,
             corners,
             albedo: layer.albedo(self.model, source, front, highlighted),
