@@ -21,7 +21,7 @@
 //! orient2d 8u   orient3d 46u   orient4d 280u   incircle 128u   insphere 1104u   (to first order)
 //! ```
 //!
-//! times the product of the maxima. These are larger than bounds by the permanent [Shewchuk97], by a factor of
+//! times the product of the maxima. These are larger than bounds by the permanent \[Shewchuk97\], by a factor of
 //! two or three for points without special position, and cost half as much.
 //!
 //! **Overflow.** A filter forms the product of the maxima times a constant that makes it at least as large as

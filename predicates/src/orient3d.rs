@@ -9,7 +9,7 @@
 //!            a
 //! ```
 //!
-//! The sign of the determinant with rows `a - d`, `b - d`, `c - d`, the convention of [Shewchuk97].
+//! The sign of the determinant with rows `a - d`, `b - d`, `c - d`, the convention of \[Shewchuk97\].
 
 use crate::arithmetic::double_double;
 use crate::polynomial::{self, Ring, Rounded};

@@ -14,7 +14,7 @@
 //! **Does not promise** anything about equal ids: then the answer is the plain predicate's, which is zero where
 //! they name the same point. When a coordinate is infinite or NaN the answer is `Zero`.
 //!
-//! **Method** [Edelsbrunner90]. Each predicate is the determinant of a matrix with a row `x, y(, z)(, w), 1` for
+//! **Method** \[Edelsbrunner90\]. Each predicate is the determinant of a matrix with a row `x, y(, z)(, w), 1` for
 //! each point, where `w` is the sum of the squares of the coordinates. With points ranked by id, the entry for
 //! the `k`-th coordinate of the `i`-th point is increased by `e^(2^(N + d i + k))`, in `d` dimensions, and its `w`,
 //! which counts as independent of the coordinates, by `e^(2^i)`: of any set of these, the product is larger than

@@ -1,6 +1,7 @@
 //! Integration tests of `welter_predicates`, against the exact oracles of the kit.
 
 #![allow(clippy::unwrap_used, reason = "a panic is the report of a test")]
+#![allow(clippy::print_stdout, reason = "a test says what it skipped")]
 
 mod ccd;
 mod family;

@@ -136,7 +136,7 @@ fn colors_of(mesh: &TriMesh, coloring: Coloring) -> Vec<[u8; 3]> {
 /// Triangles of no group.
 const GREY: [u8; 3] = [190, 190, 190];
 
-/// Colours that differ well, also for most colour-blind people [Okabe08]; they repeat.
+/// Colours that differ well, also for most colour-blind people \[Okabe08\]; they repeat.
 fn distinct(k: usize) -> [u8; 3] {
     const COLORS: [[u8; 3]; 7] = [
         [230, 159, 0],

@@ -1,4 +1,4 @@
-//! Parts of triangles on one side of planes [Sutherland74].
+//! Parts of triangles on one side of planes \[Sutherland74\].
 //!
 //! A crossing point is computed from the inner to the outer end of the edge, so two triangles that share the edge get the
 //! same point and stay watertight.

@@ -86,7 +86,7 @@ static DECODED: LazyLock<[f32; 256]> =
 static THRESHOLDS: LazyLock<[f32; 255]> =
     LazyLock::new(|| std::array::from_fn(|v| to_linear((v as f64 + 0.5) / 255.0) as f32));
 
-/// Positions of an 8 x 8 pattern, in bit-reversed order [Bayer73]: rounds so that gradients show no bands.
+/// Positions of an 8 x 8 pattern, in bit-reversed order \[Bayer73\]: rounds so that gradients show no bands.
 pub(crate) fn dither(x: usize, y: usize) -> f32 {
     let (mut v, x, y) = (0, x as u32 & 7, y as u32 & 7);
     for bit in 0..3 {

@@ -1,6 +1,6 @@
 //! Colour maps of even perceived steps, from a formula.
 //!
-//! In the Oklab space [Ottosson20] with lightness L, chroma C and hue h, at position t in [0, 1]:
+//! In the Oklab space \[Ottosson20\] with lightness L, chroma C and hue h, at position t in [0, 1]:
 //! ```text
 //! sequential   L = 0.28 + 0.62 t     h = 300 - 200 t degrees (violet, blue, green, yellow)   C = 0.093 + 0.22 (t - 0.42)^2
 //! diverging    L = 0.93 - 0.43 s     h = 255 (t < 1/2) or 45 degrees (blue, orange)          C = 0.14 s,  s = |2t - 1|
@@ -54,7 +54,7 @@ fn of_polar(lightness: f64, chroma: f64, hue_degrees: f64) -> Rgb {
     Rgb::new(r, g, b)
 }
 
-/// Oklab to linear sRGB, matrices of [Ottosson20].
+/// Oklab to linear sRGB, matrices of \[Ottosson20\].
 fn linear_srgb(l: f64, a: f64, b: f64) -> [f64; 3] {
     let cube = |x: f64| x * x * x;
     let long = cube(l + 0.396_337_777_4 * a + 0.215_803_757_3 * b);

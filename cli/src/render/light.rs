@@ -1,6 +1,6 @@
 //! [`Lights`]: how much light reaches a point.
 //!
-//! Method: the surface is drawn as depth maps [Williams78] along directions spread over the whole sphere (a Fibonacci
+//! Method: the surface is drawn as depth maps \[Williams78\] along directions spread over the whole sphere (a Fibonacci
 //! lattice) for the light of the sky, and along a cone for the key light, the sun of the picture. A point sees a light if
 //! nothing in its map is nearer. Each sample of a pixel asks its own share of the maps, so a pixel, the mean of its samples,
 //! has asked them all: soft shadows at the price of hard ones.

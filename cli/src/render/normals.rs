@@ -1,5 +1,5 @@
 //! Corner normals for smooth shading: facet normals averaged with weights that grow with the angle at the vertex, after
-//! [Thuermer98], over those neighbours that turn by less than the crease angle, so that sharp edges stay sharp.
+//! \[Thuermer98\], over those neighbours that turn by less than the crease angle, so that sharp edges stay sharp.
 
 use super::model::Model;
 use glam::{DVec3, Vec3};

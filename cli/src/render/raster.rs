@@ -5,7 +5,7 @@
 //! closed surface shows no gaps. The depth of a covered sample is a convex combination of the corner depths (within
 //! rounding), never an extrapolation.
 //!
-//! Method: edge functions [Pineda88], on the bounding box or, of wide triangles, on the interval of each row. A sample stands in the middle of its cell.
+//! Method: edge functions \[Pineda88\], on the bounding box or, of wide triangles, on the interval of each row. A sample stands in the middle of its cell.
 //! Invariant: corner coordinates stay below [`LIMIT`], so no product overflows an i64; callers clip.
 
 /// Steps of the corner grid between samples.

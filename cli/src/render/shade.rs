@@ -1,10 +1,10 @@
 //! [`Shader`]: the colour of a sample of a triangle.
 //!
 //! Method: with the eye at the origin and `n_i = v_j x v_k` for each edge opposite to corner i, a ray d meets the plane of
-//! the triangle with barycentric coordinates proportional to `n_i . d` [Olano97]: perspective-correct attributes, and the
+//! the triangle with barycentric coordinates proportional to `n_i . d` \[Olano97\]: perspective-correct attributes, and the
 //! distance in the picture to an edge line is `|n_i . d|` over the length of the first two components of `n_i`.
 //! Light: a key light with soft shadow, a sky with soft occlusion, a fill and a rim light without shadow, a little
-//! specular reflection [Blinn77].
+//! specular reflection \[Blinn77\].
 
 use super::camera::View;
 use super::color::Rgb;
@@ -48,7 +48,7 @@ pub(super) struct Sample {
 }
 
 impl Sample {
-    /// Two numbers in [-1, 1], scattered by a permuted congruential step [ONeill14].
+    /// Two numbers in [-1, 1], scattered by a permuted congruential step \[ONeill14\].
     fn jitter(&self) -> [f32; 2] {
         let state = self.seed.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
         let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
@@ -256,7 +256,7 @@ impl<'a> Shader<'a> {
     }
 }
 
-/// Bends light above the knee so that it still shows differences: x (1 + x / w^2) / (1 + x) [Reinhard02] above it, which is
+/// Bends light above the knee so that it still shows differences: x (1 + x / w^2) / (1 + x) \[Reinhard02\] above it, which is
 /// smooth at the knee and reaches full light at w.
 fn tone(c: Rgb) -> Rgb {
     const KNEE: f32 = 0.7;

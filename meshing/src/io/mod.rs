@@ -16,7 +16,7 @@
 //! **Does not promise.** Materials, normals, texture coordinates and vertex colours are not kept. That the result is a
 //! mesh of any kind: see `surface`.
 //!
-//! **Method.** [Murray96] (OBJ), [Turk94] (PLY), [Burns93] (STL), [Phillips93] (OFF). One pass, linear time, except
+//! **Method.** \[Murray96\] (OBJ), \[Turk94\] (PLY), \[Burns93\] (STL), \[Phillips93\] (OFF). One pass, linear time, except
 //! polygons that are not convex.
 
 mod builder;

@@ -6,8 +6,8 @@
 //! convex or not: signs are exact. Does not promise: anything about overlap for a polygon that is not simple there, has
 //! more than [`EAR_CLIPPING_LIMIT`] corners, hides its ears, or has corners not yet read or not finite; those become a fan.
 //!
-//! Method: project along the longest component of the Newell normal [Tampieri92]. Where each triangle of the fan from the
-//! first corner turns as the polygon does, the fan is taken; else ears are clipped [Meisters75], an ear being a corner
+//! Method: project along the longest component of the Newell normal \[Tampieri92\]. Where each triangle of the fan from the
+//! first corner turns as the polygon does, the fan is taken; else ears are clipped \[Meisters75\], an ear being a corner
 //! that turns with the polygon and whose closed triangle holds no reflex corner.
 //! Complexity: O(n) for a fan, at most O(n^2) with ears: a polygon whose ears are that well hidden becomes a fan.
 

@@ -1,6 +1,6 @@
 //! A polygon carried along a curve: [`sweep`], the tool behind the tubes and the Moebius bands.
 //!
-//! Method: a rotation-minimising frame by double reflection [Wang08]. On a closed curve the frame comes back turned
+//! Method: a rotation-minimising frame by double reflection \[Wang08\]. On a closed curve the frame comes back turned
 //! about the tangent by some angle; the opposite turn, and the twist asked for, are spread evenly over the curve.
 //! Open sweeps are closed by flat caps of rings that shrink to a centre.
 //!
@@ -183,7 +183,7 @@ fn tangents(centers: &[DVec3], closed: bool) -> Result<Vec<DVec3>, ShapeError> {
         .collect()
 }
 
-/// Double reflection: carries a normal from one point of a curve to the next with the least turn [Wang08].
+/// Double reflection: carries a normal from one point of a curve to the next with the least turn \[Wang08\].
 fn transport(normal: DVec3, step: DVec3, tangent: DVec3, next_tangent: DVec3) -> DVec3 {
     let reflected_normal = reflect(normal, step);
     let reflected_tangent = reflect(tangent, step);

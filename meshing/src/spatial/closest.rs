@@ -14,7 +14,7 @@
 //! # Method
 //! Everything is computed relative to the query and scaled by a power of two so that the scene has size one (`Local`). A
 //! triangle's candidates are the closest point of each edge and the foot of the perpendicular, from the 2 by 2
-//! normal equations of the edges at the first corner, if it lies inside [Ericson05]; the closest of the candidates wins. A degenerate
+//! normal equations of the edges at the first corner, if it lies inside \[Ericson05\]; the closest of the candidates wins. A degenerate
 //! triangle has no foot. Norms are scaled by their largest component, so that small distances do not underflow.
 //!
 //! # Complexity

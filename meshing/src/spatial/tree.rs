@@ -13,7 +13,7 @@
 //! Speed where more boxes than a few share the same 2^-24 of the scene.
 //!
 //! # Method
-//! The hierarchy is built by locally ordered clustering [Meister18] and refitted bottom-up by `obvhs`, over its own
+//! The hierarchy is built by locally ordered clustering \[Meister18\] and refitted bottom-up by `obvhs`, over its own
 //! nodes. Clustering merges mutually nearest neighbours and needs a pass for each merge where all distances tie (equal boxes,
 //! regular strips), so the boxes it is shown are displaced by a small hash of their number; afterwards the true boxes
 //! are put into the leaves and the nodes refitted.

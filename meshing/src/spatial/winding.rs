@@ -13,9 +13,9 @@
 //! A number for open surfaces, which have none: the type [`ClosedOrientedMesh`] keeps them out.
 //!
 //! # Method
-//! Signed crossings of the surface with the ray from `p` in direction +x [Haines94]. Seen along x, in the plane (y, z),
+//! Signed crossings of the surface with the ray from `p` in direction +x \[Haines94\]. Seen along x, in the plane (y, z),
 //! the ray is the point `p`; it is moved by symbolic amounts `(e, d)`, `0 < d << e << 1`, so that it lies on no
-//! projected edge or vertex [Edelsbrunner90]. Then
+//! projected edge or vertex \[Edelsbrunner90\]. Then
 //!
 //! * an edge from `a` to `b` passes the height of `p` upward iff `a.z <= p.z < b.z`, downward iff `b.z <= p.z < a.z`;
 //! * where the edge passes, the moved point is on its left iff `orient2d(a, b, p) > 0`, and where that is zero, iff the

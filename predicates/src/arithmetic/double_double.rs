@@ -2,7 +2,7 @@
 //!
 //! This stage settles what is neither clear to rounded arithmetic nor on one lattice: nearly degenerate input of
 //! mixed exponents. Differences of coordinates are exact in it. Sums are by AccurateDWPlusDW, relative error at
-//! most 3 v / (1 - 4u), products by DWTimesDW1, relative error at most 7 v, with v = u^2 = 2^-106 [Joldes17]; the
+//! most 3 v / (1 - 4u), products by DWTimesDW1, relative error at most 7 v, with v = u^2 = 2^-106 \[Joldes17\]; the
 //! bound below takes 4 v and 8 v.
 //!
 //! **Bound.** Let P be the permanent of a value: its polynomial with the magnitudes of the differences and every
@@ -35,7 +35,7 @@ pub(crate) struct DoubleDouble {
 }
 
 impl Additive for DoubleDouble {
-    /// AccurateDWPlusDW, algorithm 6 of [Joldes17].
+    /// AccurateDWPlusDW, algorithm 6 of \[Joldes17\].
     #[inline(always)]
     fn plus(&self, other: &Self) -> Self {
         let (s_high, s_low) = two_sum(self.high, other.high);
@@ -53,7 +53,7 @@ impl Additive for DoubleDouble {
 
 impl Times<DoubleDouble> for DoubleDouble {
     type Product = DoubleDouble;
-    /// DWTimesDW1, algorithm 10 of [Joldes17].
+    /// DWTimesDW1, algorithm 10 of \[Joldes17\].
     #[inline(always)]
     fn times(&self, other: &Self) -> Self {
         let (c_high, c_low) = two_product(self.high, other.high);

@@ -2,7 +2,7 @@
 //!
 //! An expansion is a sequence of nonzero numbers of ascending magnitude, no two of which overlap in their bits; it
 //! stands for their exact sum, and has its last component's sign. Sums are FAST-EXPANSION-SUM, products with
-//! one number SCALE-EXPANSION, both with zero elimination, and COMPRESS shortens [Shewchuk97]. All results are
+//! one number SCALE-EXPANSION, both with zero elimination, and COMPRESS shortens \[Shewchuk97\]. All results are
 //! nonadjacent, which the algorithms need of their operands.
 //!
 //! An operation that would need more than `CAP` components gives an *overfull* expansion. Being overfull is

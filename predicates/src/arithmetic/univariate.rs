@@ -3,7 +3,7 @@
 //! What it computes: for a polynomial `p` of degree at most 3, how many distinct roots lie in the open interval (0, 1),
 //! and at each of them the signs of other polynomials of degree at most 2.
 //!
-//! Method: Tarski queries [Basu06]. Let `T(p, q)` be the sum over the distinct roots of `p` in (0, 1) of the sign of `q`;
+//! Method: Tarski queries \[Basu06\]. Let `T(p, q)` be the sum over the distinct roots of `p` in (0, 1) of the sign of `q`;
 //! it is the Cauchy index of `p' q / p`, and Sturm's theorem gives it from the sign variations, at 0 and at 1,
 //! of the signed remainder sequence of `p` and `p' q mod p`. No root is ever approximated, so close roots cost as
 //! much as distant ones. The signs at each single root follow from a few queries:

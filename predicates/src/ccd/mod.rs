@@ -23,7 +23,7 @@
 //! 4. contact at the ends of the step, by [`crate::intersection`];
 //! 5. the complete decision in exact integers (`decide`, whose head states the algorithm and its proof).
 //!
-//! In contrast to crossing parity [Brochu12] an even number of contacts is seen, and no ray is cast. Cost: over public
+//! In contrast to crossing parity \[Brochu12\] an even number of contacts is seen, and no ray is cast. Cost: over public
 //! queries about nine in ten end at the first two stages, and about one in fifty needs the last, tens of microseconds.
 
 mod crossing;

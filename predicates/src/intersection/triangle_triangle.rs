@@ -11,7 +11,7 @@
 //! | `Degenerate { a, b }` | meet, and the first (`a`) or the second (`b`) is collinear or a single point |
 //!
 //! Method: the sides of each triangle's vertices to the plane of the other. The yes-or-no form then compares the
-//! two intervals on the common line by two orientations [Guigue03]; the case form collects the ends of the common
+//! two intervals on the common line by two orientations \[Guigue03\]; the case form collects the ends of the common
 //! set, each of which lies on an edge of one of the triangles, by six segment-triangle questions.
 
 use super::hull::{Hull3, all_finite, boxes_disjoint};

@@ -10,7 +10,7 @@
 //! Does not promise: exact values; these are constructions. Signs that matter are to be asked of predicates,
 //! or taken from a value that exceeds its bound ([`Bounded::sign`]).
 //!
-//! Method: coordinate differences, scaled; compensated sums [Neumaier74] over chunks of fixed size, combined
+//! Method: coordinate differences, scaled; compensated sums \[Neumaier74\] over chunks of fixed size, combined
 //! in order. Complexity: linear, parallel.
 
 mod bounded;

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-/// A running sum with the rounding errors of its additions [Neumaier74].
+/// A running sum with the rounding errors of its additions \[Neumaier74\].
 ///
 /// The result of `n` terms is off by at most `u |sum| + 2 n^2 u^2 (sum of magnitudes)`, where `u = 2^-53`.
 #[derive(Clone, Copy, Debug, Default)]

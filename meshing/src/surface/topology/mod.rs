@@ -20,7 +20,7 @@
 //! ```
 //! A mesh is a [`ClosedOrientedMesh`](super::ClosedOrientedMesh) exactly if it is closed and oriented.
 //!
-//! Method: half-edges sorted by edge; union-find over vertices (components) and over corners (fans) [Tarjan75].
+//! Method: half-edges sorted by edge; union-find over vertices (components) and over corners (fans) \[Tarjan75\].
 //! Complexity: near linear in the number of triangles.
 
 mod boundary;

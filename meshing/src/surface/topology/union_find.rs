@@ -1,6 +1,6 @@
 //! Disjoint sets of small integers: [`UnionFind`].
 //!
-//! Method: path halving and linking by index, the smaller root wins [Tarjan75]; so the root of a set is its
+//! Method: path halving and linking by index, the smaller root wins \[Tarjan75\]; so the root of a set is its
 //! smallest member, whatever the order of the unions. Complexity: O(log n) amortised a call, in practice
 //! constant.
 
