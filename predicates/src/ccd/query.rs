@@ -234,7 +234,7 @@ mod tests {
                 1 => f64::from_bits(1),
                 n => f64::MAX / n as f64,
             };
-            if self.next() % 2 == 0 { value } else { -value }
+            if self.next().is_multiple_of(2) { value } else { -value }
         }
 
         /// Grid coordinates with all degeneracies, near the largest magnitude.
