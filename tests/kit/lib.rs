@@ -11,3 +11,8 @@ pub mod entropy;
 pub mod exact;
 pub mod fuzz;
 pub mod generate;
+
+/// The code in the project's README is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
