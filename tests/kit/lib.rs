@@ -5,6 +5,7 @@
 //! by enumerating the vertices of the polytope of barycentric weights). They promise to be right for every finite
 //! `f64` and promise nothing about speed. Everything is deterministic in the bytes it is given.
 
+#![cfg(feature = "oracles")]
 #![forbid(unsafe_code)]
 
 pub mod entropy;
