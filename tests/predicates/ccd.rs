@@ -287,3 +287,46 @@ fn public_queries_have_their_known_answers() {
     println!("{queries} queries");
     assert!(queries > 0);
 }
+
+/// Parts of a step whose only contact is at 1/4, with ends of every size.
+#[test]
+fn contact_within_a_part_of_the_step() {
+    use welter_predicates::ccd::{edge_edge_during, vertex_face_during, vertex_segment_2d_during};
+    let face = [[-4.0, -4.0, 0.0], [4.0, -4.0, 0.0], [0.0, 4.0, 0.0]];
+    let v = |z| [[0.0, 0.0, z], face[0], face[1], face[2]];
+    let e = |z| [[-1.0, 0.0, z], [1.0, 0.0, z], [0.0, -1.0, 0.0], [0.0, 1.0, 0.0]];
+    let s = |y| [[0.0, y], [-1.0, 0.0], [1.0, 0.0]];
+    let tiny = f64::from_bits(1);
+    let times = [
+        0.0,
+        tiny,
+        2f64.powi(-1000),
+        0.25f64.next_down(),
+        0.25,
+        0.25f64.next_up(),
+        1.0 - 2f64.powi(-53),
+        1.0,
+    ];
+    for (i, &from) in times.iter().enumerate() {
+        for (j, &to) in times.iter().enumerate() {
+            for size in [1.0, tiny, 2f64.powi(1000)] {
+                let expected = i <= j && from <= 0.25 && 0.25 <= to;
+                let interval = [from, to];
+                assert_eq!(
+                    vertex_face_during(v(size), v(-3.0 * size), interval),
+                    expected,
+                    "{interval:?} {size}"
+                );
+                assert_eq!(
+                    edge_edge_during(e(size), e(-3.0 * size), interval),
+                    expected,
+                    "{interval:?} {size}"
+                );
+                assert_eq!(vertex_segment_2d_during(s(size), s(-3.0 * size), interval), expected);
+            }
+        }
+    }
+    for bad in [[-0.5, 1.0], [0.0, 1.5], [f64::NAN, 1.0], [0.0, f64::NAN], [1.0, 0.0]] {
+        assert!(!vertex_face_during(v(1.0), v(-3.0), bad));
+    }
+}

@@ -37,7 +37,7 @@
 
 use super::ContactTimes;
 use crate::Sign;
-use crate::arithmetic::arena::Arena;
+use crate::arithmetic::arena::{Arena, Int};
 use crate::arithmetic::fixed_point::Unit;
 use crate::arithmetic::univariate::{MOST_ROOTS, Polynomial, Roots, roots_in_unit_interval};
 
@@ -74,10 +74,12 @@ pub(super) enum Ask {
 
 impl Motion {
     /// A polygon with these corners, each the difference of two of the `points`: `(i, j)` stands for
-    /// `points[i] - points[j]`. `points` holds the places at time 0, then those at time 1.
+    /// `points[i] - points[j]`. `points` holds the places at time 0, then those at time 1; of the motion, the part
+    /// within the `interval` of [0, 1] is taken, and its ends are the times 0 and 1 of all that follows.
     pub(super) fn new<const N: usize>(
         points: [&[[f64; N]]; 2],
         corners: &[(usize, usize)],
+        interval: [f64; 2],
         arena: &mut Arena<'_>,
     ) -> Self {
         let coordinates = points.into_iter().flat_map(|p| p.as_flattened().iter().copied());
@@ -85,12 +87,14 @@ impl Motion {
         let mut places = [[Polynomial::ZERO; 3]; MOST_CORNERS];
         for (place, &(i, j)) in places.iter_mut().zip(corners) {
             for k in 0..N {
-                let [at_0, at_1] = points.map(|p| {
+                let ends = points.map(|p| {
                     let (a, b) = (arena.load(p[i][k], unit), arena.load(p[j][k], unit));
                     arena.sub(a, b)
                 });
-                let slope = arena.sub(at_1, at_0);
-                place[k] = Polynomial::new(&[at_0, slope]);
+                let [start, end] =
+                    if interval == [0.0, 1.0] { ends } else { restricted(ends, interval, arena) };
+                let slope = arena.sub(end, start);
+                place[k] = Polynomial::new(&[start, slope]);
             }
         }
         let mut motion = Self {
@@ -237,6 +241,21 @@ impl Motion {
             (0..self.dimension).any(|k| has_opposites(corners.iter().skip(k).step_by(self.dimension)))
         }
     }
+}
+
+/// A coordinate at the ends of the interval, given its values at times 0 and 1; all times one power of two.
+fn restricted([at_0, at_1]: [Int; 2], interval: [f64; 2], arena: &mut Arena<'_>) -> [Int; 2] {
+    let unit = Unit::of(interval).exponent().min(0);
+    interval.map(|time| {
+        let mark = arena.mark();
+        let (one, time) = (arena.load(1.0, unit), arena.load(time, unit));
+        let origin = arena.mul(at_0, one);
+        let slope = arena.sub(at_1, at_0);
+        let way = arena.mul(slope, time);
+        let mut place = arena.add(origin, way);
+        arena.keep(mark, [&mut place]);
+        place
+    })
 }
 
 fn has_opposites<'s>(signs: impl Iterator<Item = &'s Sign>) -> bool {

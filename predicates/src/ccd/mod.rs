@@ -31,8 +31,11 @@ mod crossing;
 mod decide;
 mod query;
 mod separation;
+mod stage;
+pub mod staged;
 
 pub use query::{
-    ContactTimes, edge_edge, edge_edge_times, vertex_face, vertex_face_times, vertex_segment_2d,
-    vertex_segment_2d_times,
+    ContactTimes, edge_edge, edge_edge_during, edge_edge_times, vertex_face, vertex_face_during,
+    vertex_face_times, vertex_segment_2d, vertex_segment_2d_during, vertex_segment_2d_times,
 };
+pub use stage::Stage;

@@ -2,6 +2,7 @@
 
 use super::decide::{Ask, Motion};
 use super::separation::Corners;
+use super::stage::Stage;
 use crate::Point;
 use crate::arithmetic::arena::Arena;
 use crate::arithmetic::fixed_point::{COORDINATE_LIMBS, Unit};
@@ -45,21 +46,38 @@ const VERTEX_SEGMENT: [(usize, usize); 2] = [(1, 0), (2, 0)];
 /// assert!(step(1.0, 0.0));
 /// assert!(!step(1.0, 5e-324));
 /// ```
+#[inline]
 #[must_use]
 pub fn vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
-    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
-    if boxes_apart(&t0, &t1, &VERTEX_FACE) {
-        return false;
-    }
-    let corners = Corners::new(&t0, &t1, &VERTEX_FACE);
-    if corners.separated() {
-        return false;
-    }
-    if let Some(contact) = corners.crosses() {
-        return contact;
-    }
+    staged_vertex_face(t0, t1).0
+}
+
+/// [`vertex_face`] with the stage that settled it.
+#[inline]
+#[must_use]
+pub fn staged_vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> (bool, Stage) {
     let at = |[v, f0, f1, f2]: [[f64; 3]; 4]| triangle_contains_3d([f0, f1, f2], v);
-    all_finite(&t0, &t1) && (at(t0) || at(t1) || decide([&t0, &t1], &VERTEX_FACE, Ask::Any).any())
+    settle(&t0.map(Point::coords), &t1.map(Point::coords), &VERTEX_FACE, at)
+}
+
+/// Whether the moving vertex touches the moving triangle at a time of the closed `interval` of the step.
+///
+/// `t0` and `t1` as for [`vertex_face`]; the interval is `[from, to]` with `0 <= from <= to <= 1`, its ends are exact numbers
+/// of which the vertices' places at these times need not be rounded. False when a coordinate is not finite, or
+/// when the interval is not of that kind.
+///
+/// ```
+/// use welter_predicates::ccd::vertex_face_during;
+/// let face = [[-4.0, -4.0, 0.0], [4.0, -4.0, 0.0], [0.0, 4.0, 0.0]];
+/// let v = |z| [[0.0, 0.0, z], face[0], face[1], face[2]];
+/// // Contact at 1/4.
+/// assert!(vertex_face_during(v(1.0), v(-3.0), [0.0, 0.25]));
+/// assert!(!vertex_face_during(v(1.0), v(-3.0), [0.0, 0.25 - f64::EPSILON]));
+/// assert!(!vertex_face_during(v(1.0), v(-3.0), [0.25 + f64::EPSILON, 1.0]));
+/// ```
+#[must_use]
+pub fn vertex_face_during(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4], interval: [f64; 2]) -> bool {
+    settle_during(&t0.map(Point::coords), &t1.map(Point::coords), &VERTEX_FACE, interval)
 }
 
 /// At how many times of the closed step the moving vertex touches the moving triangle; arguments as for [`vertex_face`].
@@ -77,7 +95,7 @@ pub fn vertex_face_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> Cont
     if never(&t0, &t1, &VERTEX_FACE) || !all_finite(&t0, &t1) {
         return ContactTimes::Finite(0);
     }
-    decide([&t0, &t1], &VERTEX_FACE, Ask::Count)
+    decide([&t0, &t1], &VERTEX_FACE, STEP, Ask::Count)
 }
 
 /// Whether the moving edges touch at a time of the closed step.
@@ -92,21 +110,34 @@ pub fn vertex_face_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> Cont
 /// let t1 = [[1.5, 0.0, 0.0], [2.5, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
 /// assert!(edge_edge(t0, t1));
 /// ```
+#[inline]
 #[must_use]
 pub fn edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
-    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
-    if boxes_apart(&t0, &t1, &EDGE_EDGE) {
-        return false;
-    }
-    let corners = Corners::new(&t0, &t1, &EDGE_EDGE);
-    if corners.separated() {
-        return false;
-    }
-    if let Some(contact) = corners.crosses() {
-        return contact;
-    }
+    staged_edge_edge(t0, t1).0
+}
+
+/// [`edge_edge`] with the stage that settled it.
+#[inline]
+#[must_use]
+pub fn staged_edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> (bool, Stage) {
     let at = |[ea0, ea1, eb0, eb1]: [[f64; 3]; 4]| segments_intersect_3d([ea0, ea1], [eb0, eb1]);
-    all_finite(&t0, &t1) && (at(t0) || at(t1) || decide([&t0, &t1], &EDGE_EDGE, Ask::Any).any())
+    settle(&t0.map(Point::coords), &t1.map(Point::coords), &EDGE_EDGE, at)
+}
+
+/// Whether the moving edges touch at a time of the closed `interval` of the step; `t0` and `t1` as for [`edge_edge`],
+/// `interval` as for [`vertex_face_during`].
+///
+/// ```
+/// use welter_predicates::ccd::edge_edge_during;
+/// // One edge slides along its own line onto the other, at rest, from 2/3 on.
+/// let t0 = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
+/// let t1 = [[1.5, 0.0, 0.0], [2.5, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
+/// assert!(!edge_edge_during(t0, t1, [0.0, 2.0 / 3.0])); // rounded down
+/// assert!(edge_edge_during(t0, t1, [0.0, 2.0 / 3.0 + f64::EPSILON]));
+/// ```
+#[must_use]
+pub fn edge_edge_during(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4], interval: [f64; 2]) -> bool {
+    settle_during(&t0.map(Point::coords), &t1.map(Point::coords), &EDGE_EDGE, interval)
 }
 
 /// At how many times of the closed step the moving edges touch; arguments as for [`edge_edge`].
@@ -123,7 +154,7 @@ pub fn edge_edge_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> Contac
     if never(&t0, &t1, &EDGE_EDGE) || !all_finite(&t0, &t1) {
         return ContactTimes::Finite(0);
     }
-    decide([&t0, &t1], &EDGE_EDGE, Ask::Count)
+    decide([&t0, &t1], &EDGE_EDGE, STEP, Ask::Count)
 }
 
 /// Whether the moving vertex touches the moving segment of the plane at a time of the closed step.
@@ -136,13 +167,39 @@ pub fn edge_edge_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> Contac
 /// assert!(vertex_segment_2d([[0.0, 1.0], s[0], s[1]], [[0.0, -1.0], s[0], s[1]]));
 /// assert!(!vertex_segment_2d([[2.0, 1.0], s[0], s[1]], [[2.0, -1.0], s[0], s[1]]));
 /// ```
+#[inline]
 #[must_use]
 pub fn vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> bool {
+    staged_vertex_segment_2d(t0, t1).0
+}
+
+/// [`vertex_segment_2d`] with the stage that settled it.
+#[inline]
+#[must_use]
+pub fn staged_vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> (bool, Stage) {
     let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
-    if boxes_apart(&t0, &t1, &VERTEX_SEGMENT) || !all_finite(&t0, &t1) {
-        return false;
+    if boxes_apart(&t0, &t1, &VERTEX_SEGMENT) {
+        return (false, Stage::Boxes);
     }
-    decide([&t0, &t1], &VERTEX_SEGMENT, Ask::Any).any()
+    if !all_finite(&t0, &t1) {
+        return (false, Stage::NonFinite);
+    }
+    (decide([&t0, &t1], &VERTEX_SEGMENT, STEP, Ask::Any).any(), Stage::Exact)
+}
+
+/// Whether the moving vertex touches the moving segment at a time of the closed `interval` of the step; `t0` and `t1` as for
+/// [`vertex_segment_2d`], `interval` as for [`vertex_face_during`].
+///
+/// ```
+/// use welter_predicates::ccd::vertex_segment_2d_during;
+/// let s = [[-1.0, 0.0], [1.0, 0.0]];
+/// let (t0, t1) = ([[0.0, 1.0], s[0], s[1]], [[0.0, -1.0], s[0], s[1]]);
+/// assert!(vertex_segment_2d_during(t0, t1, [0.5, 0.5]));
+/// assert!(!vertex_segment_2d_during(t0, t1, [0.0, 0.4]));
+/// ```
+#[must_use]
+pub fn vertex_segment_2d_during(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3], interval: [f64; 2]) -> bool {
+    settle_during(&t0.map(Point::coords), &t1.map(Point::coords), &VERTEX_SEGMENT, interval)
 }
 
 /// At how many times of the closed step the moving vertex touches the moving segment; arguments as for
@@ -160,12 +217,60 @@ pub fn vertex_segment_2d_times(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -
     if boxes_apart(&t0, &t1, &VERTEX_SEGMENT) || !all_finite(&t0, &t1) {
         return ContactTimes::Finite(0);
     }
-    decide([&t0, &t1], &VERTEX_SEGMENT, Ask::Count)
+    decide([&t0, &t1], &VERTEX_SEGMENT, STEP, Ask::Count)
+}
+
+/// Climbs the stages of a query in space; `at` tells whether the primitives touch at one time.
+#[inline(always)]
+fn settle<const K: usize>(
+    t0: &[[f64; 3]; 4],
+    t1: &[[f64; 3]; 4],
+    corners: &[(usize, usize); K],
+    at: impl Fn([[f64; 3]; 4]) -> bool,
+) -> (bool, Stage) {
+    if boxes_apart(t0, t1, corners) {
+        return (false, Stage::Boxes);
+    }
+    let differences = Corners::new(t0, t1, corners);
+    if differences.separated() {
+        return (false, Stage::Direction);
+    }
+    if let Some(contact) = differences.crosses() {
+        return (contact, Stage::Subdivision);
+    }
+    if !all_finite(t0, t1) {
+        return (false, Stage::NonFinite);
+    }
+    if at(*t0) || at(*t1) {
+        return (true, Stage::Ends);
+    }
+    (decide([t0, t1], corners, STEP, Ask::Any).any(), Stage::Exact)
+}
+
+/// Whether there is a contact within the interval.
+fn settle_during<const N: usize, const P: usize>(
+    t0: &[[f64; N]; P],
+    t1: &[[f64; N]; P],
+    corners: &[(usize, usize)],
+    interval: [f64; 2],
+) -> bool {
+    let [from, to] = interval;
+    let is_part = (0.0..=to).contains(&from) && to <= 1.0;
+    is_part
+        && !boxes_apart(t0, t1, corners)
+        && all_finite(t0, t1)
+        && decide([t0, t1], corners, interval, Ask::Any).any()
 }
 
 /// Limbs of an arena for one decision, per limb of a coordinate: twice the largest use, which is that of three roots or of
 /// a motion in a plane, as a test measures it with coordinates of 33 limbs.
 const LIMBS_PER_LIMB: usize = 2300;
+
+/// The whole time step.
+const STEP: [f64; 2] = [0.0, 1.0];
+
+/// Limbs of a time in [0, 1], in units of at least 2^-1074.
+const TIME_LIMBS: usize = 17;
 
 /// Coordinates of up to this many bits, that is most, are decided with a small arena.
 const FEW_LIMBS: usize = 3;
@@ -180,14 +285,26 @@ fn all_finite<const N: usize, const P: usize>(t0: &[[f64; N]; P], t1: &[[f64; N]
     t0.as_flattened().iter().chain(t1.as_flattened()).all(|x| x.is_finite())
 }
 
-/// The decision of [`super::decide`], in an arena of the size that the coordinates ask for. All are finite.
+/// The decision of [`super::decide`] within an interval, in an arena of the size that the coordinates ask for. All are finite.
 #[cold]
-fn decide<const N: usize>(points: [&[[f64; N]]; 2], corners: &[(usize, usize)], ask: Ask) -> ContactTimes {
+fn decide<const N: usize>(
+    points: [&[[f64; N]]; 2],
+    corners: &[(usize, usize)],
+    interval: [f64; 2],
+    ask: Ask,
+) -> ContactTimes {
     let coordinates = points.into_iter().flat_map(|p| p.as_flattened().iter().copied());
-    if Unit::limbs(coordinates) <= FEW_LIMBS {
-        decide_within::<N, { FEW_LIMBS * LIMBS_PER_LIMB }>(points, corners, ask)
+    let [from, to] = interval;
+    let time_limbs = if interval == STEP { 0 } else { Unit::limbs([from, to, 1.0].into_iter()) };
+    let limbs = Unit::limbs(coordinates) + time_limbs;
+    if limbs <= FEW_LIMBS {
+        decide_within::<N, { FEW_LIMBS * LIMBS_PER_LIMB }>(points, corners, interval, ask)
+    } else if limbs <= COORDINATE_LIMBS {
+        decide_within::<N, { COORDINATE_LIMBS * LIMBS_PER_LIMB }>(points, corners, interval, ask)
     } else {
-        decide_within::<N, { COORDINATE_LIMBS * LIMBS_PER_LIMB }>(points, corners, ask)
+        decide_within::<N, { (COORDINATE_LIMBS + TIME_LIMBS) * LIMBS_PER_LIMB }>(
+            points, corners, interval, ask,
+        )
     }
 }
 
@@ -195,11 +312,12 @@ fn decide<const N: usize>(points: [&[[f64; N]]; 2], corners: &[(usize, usize)], 
 fn decide_within<const N: usize, const LIMBS: usize>(
     points: [&[[f64; N]]; 2],
     corners: &[(usize, usize)],
+    interval: [f64; 2],
     ask: Ask,
 ) -> ContactTimes {
     let mut limbs = [0; LIMBS];
     let mut arena = Arena::new(&mut limbs);
-    Motion::new(points, corners, &mut arena).contact_times(ask, &mut arena)
+    Motion::new(points, corners, interval, &mut arena).contact_times(ask, &mut arena)
 }
 
 /// True when, along some axis, all corners are strictly on one side of the origin at both ends of the step, and so
@@ -250,7 +368,7 @@ mod tests {
         limbs: &mut [u64],
     ) -> usize {
         let mut arena = Arena::new(limbs);
-        Motion::new([t0, t1], corners, &mut arena).contact_times(Ask::Count, &mut arena);
+        Motion::new([t0, t1], corners, STEP, &mut arena).contact_times(Ask::Count, &mut arena);
         arena.high_water
     }
 
