@@ -34,6 +34,20 @@ pub(crate) struct DoubleDouble {
     low: f64,
 }
 
+impl DoubleDouble {
+    #[inline(always)]
+    pub(crate) fn of_f64(value: f64) -> Self {
+        Self { high: value, low: 0.0 }
+    }
+
+    /// `a - b`, exactly.
+    #[inline(always)]
+    pub(crate) fn of_difference(a: f64, b: f64) -> Self {
+        let (high, low) = two_difference(a, b);
+        Self { high, low }
+    }
+}
+
 impl Additive for DoubleDouble {
     /// AccurateDWPlusDW, algorithm 6 of \[Joldes17\].
     #[inline(always)]
@@ -161,10 +175,7 @@ pub(crate) fn differences<const N: usize, const P: usize, const R: usize>(
     scaled: &[[f64; N]; P],
 ) -> [[DoubleDouble; N]; R] {
     core::array::from_fn(|i| {
-        core::array::from_fn(|j| {
-            let (high, low) = two_difference(scaled[i][j], scaled[P - 1][j]);
-            DoubleDouble { high, low }
-        })
+        core::array::from_fn(|j| DoubleDouble::of_difference(scaled[i][j], scaled[P - 1][j]))
     })
 }
 

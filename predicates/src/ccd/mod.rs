@@ -17,25 +17,44 @@
 //! # Method
 //! Stages, each of which leaves to the next what it cannot decide:
 //!
-//! 1. boxes, by exact comparison of coordinates;
+//! 1. boxes, by exact comparison of coordinates (`corners`);
 //! 2. separating directions, in rounded arithmetic with proven bounds (`separation`);
-//! 3. crossings well inside or well outside, in rounded arithmetic with proven bounds (`crossing`);
+//! 3. the step cut into intervals that rounded arithmetic with proven bounds can decide (`subdivision`, and `planar` for
+//!    motion in a coordinate plane);
 //! 4. contact at the ends of the step, by [`crate::intersection`];
-//! 5. the complete decision in exact integers (`decide`, whose head states the algorithm and its proof).
+//! 5. as 3., in double-double numbers;
+//! 6. the complete decision in exact integers (`decide`, whose head states the algorithm and its proof).
 //!
-//! In contrast to crossing parity \[Brochu12\] an even number of contacts is seen, and no ray is cast. Cost: of the public queries
-//! that the tests read, nine in ten end at the first two stages. The last takes up to about a tenth of a millisecond
-//! for coordinates of ordinary size, and up to a fraction of a second where exponents fill the whole range.
+//! In contrast to crossing parity \[Brochu12\] an even number of contacts is seen, and no ray is cast. Which stage settled a query
+//! is told by [`staged`].
 
-mod crossing;
+mod corners;
 mod decide;
+mod exact;
+mod moment;
+mod number;
+mod planar;
 mod query;
 mod separation;
+mod settle;
 mod stage;
 pub mod staged;
+mod subdivision;
 
 pub use query::{
     ContactTimes, edge_edge, edge_edge_during, edge_edge_times, vertex_face, vertex_face_during,
     vertex_face_times, vertex_segment_2d, vertex_segment_2d_during, vertex_segment_2d_times,
 };
 pub use stage::Stage;
+
+/// The whole time step.
+const STEP: [f64; 2] = [0.0, 1.0];
+
+/// Corners of the polygon that holds the origin when a vertex touches a face: differences of the points v, f0, f1, f2.
+const VERTEX_FACE: [(usize, usize); 3] = [(1, 0), (2, 0), (3, 0)];
+
+/// The same for the points ea0, ea1, eb0, eb1, in order around the parallelogram.
+const EDGE_EDGE: [(usize, usize); 4] = [(0, 2), (1, 2), (1, 3), (0, 3)];
+
+/// The same for the points v, s0, s1 of the plane.
+const VERTEX_SEGMENT: [(usize, usize); 2] = [(1, 0), (2, 0)];

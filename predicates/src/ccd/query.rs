@@ -1,11 +1,11 @@
 //! The queries: vertex against face, edge against edge, and vertex against segment in the plane.
 
-use super::decide::{Ask, Motion};
-use super::separation::Corners;
+use super::decide::Ask;
+use super::exact::decide;
+use super::settle::{Query, Step};
 use super::stage::Stage;
+use super::{EDGE_EDGE, VERTEX_FACE, VERTEX_SEGMENT};
 use crate::Point;
-use crate::arithmetic::arena::Arena;
-use crate::arithmetic::fixed_point::{COORDINATE_LIMBS, Unit};
 use crate::intersection::{segments_intersect_3d, triangle_contains_3d};
 
 /// The times of a closed time step at which two primitives touch.
@@ -24,15 +24,6 @@ impl ContactTimes {
         self != Self::Finite(0)
     }
 }
-
-/// Corners of the polygon that holds the origin when a vertex touches a face: differences of the points v, f0, f1, f2.
-const VERTEX_FACE: [(usize, usize); 3] = [(1, 0), (2, 0), (3, 0)];
-
-/// The same for the points ea0, ea1, eb0, eb1, in order around the parallelogram.
-const EDGE_EDGE: [(usize, usize); 4] = [(0, 2), (1, 2), (1, 3), (0, 3)];
-
-/// The same for the points v, s0, s1 of the plane.
-const VERTEX_SEGMENT: [(usize, usize); 2] = [(1, 0), (2, 0)];
 
 /// Whether the moving vertex touches the moving triangle at a time of the closed step.
 ///
@@ -56,8 +47,7 @@ pub fn vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
 #[inline]
 #[must_use]
 pub fn staged_vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> (bool, Stage) {
-    let at = |[v, f0, f1, f2]: [[f64; 3]; 4]| triangle_contains_3d([f0, f1, f2], v);
-    settle(&t0.map(Point::coords), &t1.map(Point::coords), &VERTEX_FACE, at)
+    of_vertex_face(&[t0.map(Point::coords), t1.map(Point::coords)]).settle()
 }
 
 /// Whether the moving vertex touches the moving triangle at a time of the closed `interval` of the step.
@@ -77,7 +67,8 @@ pub fn staged_vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> (bo
 /// ```
 #[must_use]
 pub fn vertex_face_during(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4], interval: [f64; 2]) -> bool {
-    settle_during(&t0.map(Point::coords), &t1.map(Point::coords), &VERTEX_FACE, interval)
+    is_part_of_step(interval)
+        && of_vertex_face(&[t0.map(Point::coords), t1.map(Point::coords)]).settle_during(interval)
 }
 
 /// At how many times of the closed step the moving vertex touches the moving triangle; arguments as for [`vertex_face`].
@@ -91,11 +82,7 @@ pub fn vertex_face_during(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4], interv
 /// ```
 #[must_use]
 pub fn vertex_face_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> ContactTimes {
-    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
-    if never(&t0, &t1, &VERTEX_FACE) || !all_finite(&t0, &t1) {
-        return ContactTimes::Finite(0);
-    }
-    decide([&t0, &t1], &VERTEX_FACE, STEP, Ask::Count)
+    of_vertex_face(&[t0.map(Point::coords), t1.map(Point::coords)]).contact_times()
 }
 
 /// Whether the moving edges touch at a time of the closed step.
@@ -120,8 +107,7 @@ pub fn edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
 #[inline]
 #[must_use]
 pub fn staged_edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> (bool, Stage) {
-    let at = |[ea0, ea1, eb0, eb1]: [[f64; 3]; 4]| segments_intersect_3d([ea0, ea1], [eb0, eb1]);
-    settle(&t0.map(Point::coords), &t1.map(Point::coords), &EDGE_EDGE, at)
+    of_edge_edge(&[t0.map(Point::coords), t1.map(Point::coords)]).settle()
 }
 
 /// Whether the moving edges touch at a time of the closed `interval` of the step; `t0` and `t1` as for [`edge_edge`],
@@ -137,7 +123,8 @@ pub fn staged_edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> (bool
 /// ```
 #[must_use]
 pub fn edge_edge_during(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4], interval: [f64; 2]) -> bool {
-    settle_during(&t0.map(Point::coords), &t1.map(Point::coords), &EDGE_EDGE, interval)
+    is_part_of_step(interval)
+        && of_edge_edge(&[t0.map(Point::coords), t1.map(Point::coords)]).settle_during(interval)
 }
 
 /// At how many times of the closed step the moving edges touch; arguments as for [`edge_edge`].
@@ -150,11 +137,7 @@ pub fn edge_edge_during(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4], interval
 /// ```
 #[must_use]
 pub fn edge_edge_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> ContactTimes {
-    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
-    if never(&t0, &t1, &EDGE_EDGE) || !all_finite(&t0, &t1) {
-        return ContactTimes::Finite(0);
-    }
-    decide([&t0, &t1], &EDGE_EDGE, STEP, Ask::Count)
+    of_edge_edge(&[t0.map(Point::coords), t1.map(Point::coords)]).contact_times()
 }
 
 /// Whether the moving vertex touches the moving segment of the plane at a time of the closed step.
@@ -177,14 +160,8 @@ pub fn vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> bool
 #[inline]
 #[must_use]
 pub fn staged_vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> (bool, Stage) {
-    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
-    if boxes_apart(&t0, &t1, &VERTEX_SEGMENT) {
-        return (false, Stage::Boxes);
-    }
-    if !all_finite(&t0, &t1) {
-        return (false, Stage::NonFinite);
-    }
-    (decide([&t0, &t1], &VERTEX_SEGMENT, STEP, Ask::Any).any(), Stage::Exact)
+    let plane = [t0.map(Point::coords), t1.map(Point::coords)];
+    of_vertex_segment(&plane, &plane.map(lifted)).settle()
 }
 
 /// Whether the moving vertex touches the moving segment at a time of the closed `interval` of the step; `t0` and `t1` as for
@@ -199,7 +176,8 @@ pub fn staged_vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) 
 /// ```
 #[must_use]
 pub fn vertex_segment_2d_during(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3], interval: [f64; 2]) -> bool {
-    settle_during(&t0.map(Point::coords), &t1.map(Point::coords), &VERTEX_SEGMENT, interval)
+    let plane = [t0.map(Point::coords), t1.map(Point::coords)];
+    is_part_of_step(interval) && of_vertex_segment(&plane, &plane.map(lifted)).settle_during(interval)
 }
 
 /// At how many times of the closed step the moving vertex touches the moving segment; arguments as for
@@ -213,185 +191,51 @@ pub fn vertex_segment_2d_during(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3], 
 /// ```
 #[must_use]
 pub fn vertex_segment_2d_times(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> ContactTimes {
-    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
-    if boxes_apart(&t0, &t1, &VERTEX_SEGMENT) || !all_finite(&t0, &t1) {
-        return ContactTimes::Finite(0);
-    }
-    decide([&t0, &t1], &VERTEX_SEGMENT, STEP, Ask::Count)
+    let plane = [t0.map(Point::coords), t1.map(Point::coords)];
+    of_vertex_segment(&plane, &plane.map(lifted)).contact_times()
 }
 
-/// Climbs the stages of a query in space; `at` tells whether the primitives touch at one time.
+/// What answers an exact question about a step.
+trait Exactly: Fn([f64; 2], Ask) -> ContactTimes {}
+impl<F: Fn([f64; 2], Ask) -> ContactTimes> Exactly for F {}
+
 #[inline(always)]
-fn settle<const K: usize>(
-    t0: &[[f64; 3]; 4],
-    t1: &[[f64; 3]; 4],
-    corners: &[(usize, usize); K],
-    at: impl Fn([[f64; 3]; 4]) -> bool,
-) -> (bool, Stage) {
-    if boxes_apart(t0, t1, corners) {
-        return (false, Stage::Boxes);
-    }
-    let differences = Corners::new(t0, t1, corners);
-    if differences.separated() {
-        return (false, Stage::Direction);
-    }
-    if let Some(contact) = differences.crosses() {
-        return (contact, Stage::Subdivision);
-    }
-    if !all_finite(t0, t1) {
-        return (false, Stage::NonFinite);
-    }
-    if at(*t0) || at(*t1) {
-        return (true, Stage::Ends);
-    }
-    (decide([t0, t1], corners, STEP, Ask::Any).any(), Stage::Exact)
-}
-
-/// Whether there is a contact within the interval.
-fn settle_during<const N: usize, const P: usize>(
-    t0: &[[f64; N]; P],
-    t1: &[[f64; N]; P],
-    corners: &[(usize, usize)],
-    interval: [f64; 2],
-) -> bool {
-    let [from, to] = interval;
-    let is_part = (0.0..=to).contains(&from) && to <= 1.0;
-    is_part
-        && !boxes_apart(t0, t1, corners)
-        && all_finite(t0, t1)
-        && decide([t0, t1], corners, interval, Ask::Any).any()
-}
-
-/// Limbs of an arena for one decision, per limb of a coordinate: twice the largest use, which is that of three roots or of
-/// a motion in a plane, as a test measures it with coordinates of 33 limbs.
-const LIMBS_PER_LIMB: usize = 2300;
-
-/// The whole time step.
-const STEP: [f64; 2] = [0.0, 1.0];
-
-/// Limbs of a time in [0, 1], in units of at least 2^-1074.
-const TIME_LIMBS: usize = 17;
-
-/// Coordinates of up to this many bits, that is most, are decided with a small arena.
-const FEW_LIMBS: usize = 3;
-
-/// True when a filter separates the primitives throughout the step.
-#[inline]
-fn never<const K: usize>(t0: &[[f64; 3]; 4], t1: &[[f64; 3]; 4], corners: &[(usize, usize); K]) -> bool {
-    boxes_apart(t0, t1, corners) || Corners::new(t0, t1, corners).separated()
-}
-
-fn all_finite<const N: usize, const P: usize>(t0: &[[f64; N]; P], t1: &[[f64; N]; P]) -> bool {
-    t0.as_flattened().iter().chain(t1.as_flattened()).all(|x| x.is_finite())
-}
-
-/// The decision of [`super::decide`] within an interval, in an arena of the size that the coordinates ask for. All are finite.
-#[cold]
-fn decide<const N: usize>(
-    points: [&[[f64; N]]; 2],
-    corners: &[(usize, usize)],
-    interval: [f64; 2],
-    ask: Ask,
-) -> ContactTimes {
-    let coordinates = points.into_iter().flat_map(|p| p.as_flattened().iter().copied());
-    let [from, to] = interval;
-    let time_limbs = if interval == STEP { 0 } else { Unit::limbs([from, to, 1.0].into_iter()) };
-    let limbs = Unit::limbs(coordinates) + time_limbs;
-    if limbs <= FEW_LIMBS {
-        decide_within::<N, { FEW_LIMBS * LIMBS_PER_LIMB }>(points, corners, interval, ask)
-    } else if limbs <= COORDINATE_LIMBS {
-        decide_within::<N, { COORDINATE_LIMBS * LIMBS_PER_LIMB }>(points, corners, interval, ask)
-    } else {
-        decide_within::<N, { (COORDINATE_LIMBS + TIME_LIMBS) * LIMBS_PER_LIMB }>(
-            points, corners, interval, ask,
-        )
+fn of_vertex_face(step: &Step) -> Query<'_, 3, impl Exactly> {
+    Query {
+        step,
+        corners: &VERTEX_FACE,
+        touch: |[v, f0, f1, f2]| triangle_contains_3d([f0, f1, f2], v),
+        exact: |interval, ask| decide([&step[0], &step[1]], &VERTEX_FACE, interval, ask),
     }
 }
 
-#[inline(never)]
-fn decide_within<const N: usize, const LIMBS: usize>(
-    points: [&[[f64; N]]; 2],
-    corners: &[(usize, usize)],
-    interval: [f64; 2],
-    ask: Ask,
-) -> ContactTimes {
-    let mut limbs = [0; LIMBS];
-    let mut arena = Arena::new(&mut limbs);
-    Motion::new(points, corners, interval, &mut arena).contact_times(ask, &mut arena)
+#[inline(always)]
+fn of_edge_edge(step: &Step) -> Query<'_, 4, impl Exactly> {
+    Query {
+        step,
+        corners: &EDGE_EDGE,
+        touch: |[ea0, ea1, eb0, eb1]| segments_intersect_3d([ea0, ea1], [eb0, eb1]),
+        exact: |interval, ask| decide([&step[0], &step[1]], &EDGE_EDGE, interval, ask),
+    }
 }
 
-/// True when, along some axis, all corners are strictly on one side of the origin at both ends of the step, and so
-/// throughout. Compares coordinates; nothing is rounded.
-#[inline]
-fn boxes_apart<const N: usize>(t0: &[[f64; N]], t1: &[[f64; N]], corners: &[(usize, usize)]) -> bool {
-    (0..N).any(|k| {
-        let all = |apart: fn(f64, f64) -> bool| {
-            corners.iter().all(|&(i, j)| apart(t0[i][k], t0[j][k]) && apart(t1[i][k], t1[j][k]))
-        };
-        all(|x, y| x < y) || all(|x, y| x > y)
-    })
+/// The vertex as an edge across the plane, so that the stages of two edges serve; but the exact one is of the plane.
+#[inline(always)]
+fn of_vertex_segment<'s>(plane: &'s [[[f64; 2]; 3]; 2], lifted: &'s Step) -> Query<'s, 4, impl Exactly> {
+    Query {
+        step: lifted,
+        corners: &EDGE_EDGE,
+        touch: |[ea0, ea1, eb0, eb1]| segments_intersect_3d([ea0, ea1], [eb0, eb1]),
+        exact: |interval, ask| decide([&plane[0], &plane[1]], &VERTEX_SEGMENT, interval, ask),
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+#[inline(always)]
+fn lifted([v, s0, s1]: [[f64; 2]; 3]) -> [[f64; 3]; 4] {
+    let at = |[x, y]: [f64; 2], z: f64| [x, y, z];
+    [at(v, -1.0), at(v, 1.0), at(s0, 0.0), at(s1, 0.0)]
+}
 
-    /// Pseudorandom bits.
-    struct Bits(u64);
-
-    impl Bits {
-        fn next(&mut self) -> u64 {
-            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            self.0 >> 33
-        }
-
-        /// As wide as coordinates can be: the largest magnitudes, some of them sharing a set with the smallest.
-        fn wide(&mut self) -> f64 {
-            let value = match self.next() % 8 {
-                0 => f64::from_bits(self.next()),
-                1 => f64::from_bits(1),
-                n => f64::MAX / n as f64,
-            };
-            if self.next().is_multiple_of(2) { value } else { -value }
-        }
-
-        /// Grid coordinates with all degeneracies, near the largest magnitude.
-        fn coarse(&mut self) -> f64 {
-            (self.next() % 9) as f64 * 2f64.powi(1019) - 2f64.powi(1021)
-        }
-    }
-
-    fn high_water(
-        t0: &[[f64; 3]; 4],
-        t1: &[[f64; 3]; 4],
-        corners: &[(usize, usize)],
-        limbs: &mut [u64],
-    ) -> usize {
-        let mut arena = Arena::new(limbs);
-        Motion::new([t0, t1], corners, STEP, &mut arena).contact_times(Ask::Count, &mut arena);
-        arena.high_water
-    }
-
-    #[test]
-    fn arenas_are_large_enough() {
-        let mut bits = Bits(11);
-        let mut limbs = [0; COORDINATE_LIMBS * LIMBS_PER_LIMB];
-        let mut most = 0;
-        for round in 0..16 {
-            let mut points: [[[f64; 3]; 4]; 2] = core::array::from_fn(|_| {
-                core::array::from_fn(|_| {
-                    core::array::from_fn(|_| if round % 3 == 0 { bits.wide() } else { bits.coarse() })
-                })
-            });
-            // One coordinate of the smallest unit makes all integers as long as they can be.
-            points[0][0][0] = f64::from_bits(1);
-            if round % 2 == 0 {
-                points.as_flattened_mut().iter_mut().for_each(|p| p[2] = p[1]);
-            }
-            let corners: &[(usize, usize)] = if round % 4 < 2 { &VERTEX_FACE } else { &EDGE_EDGE };
-            most = most.max(high_water(&points[0], &points[1], corners, &mut limbs));
-        }
-        // Half is left for what these did not reach.
-        assert!(most > limbs.len() / 8 && most < limbs.len() / 2, "{most} of {}", limbs.len());
-    }
+fn is_part_of_step([from, to]: [f64; 2]) -> bool {
+    0.0 <= from && from <= to && to <= 1.0
 }

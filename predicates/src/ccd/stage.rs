@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum Stage {
-    /// Coordinates compared: the boxes stay apart along an axis.
+    /// Coordinates compared: the boxes stay apart along an axis, or all motion is along one.
     Boxes,
     /// A direction along which the primitives stay apart, in rounded arithmetic with a proven bound.
     Direction,
@@ -12,6 +12,8 @@ pub enum Stage {
     Subdivision,
     /// The primitives touch at the beginning or at the end of the step.
     Ends,
+    /// The same in double-double numbers, about 106 bits.
+    DoubleDouble,
     /// Signs at the roots of polynomials, in exact integers.
     Exact,
     /// None: a coordinate was infinite or not a number, and the answer is "no contact".
@@ -20,6 +22,13 @@ pub enum Stage {
 
 impl Stage {
     /// All stages, in the order in which they are tried.
-    pub const ALL: [Self; 6] =
-        [Self::Boxes, Self::Direction, Self::Subdivision, Self::Ends, Self::Exact, Self::NonFinite];
+    pub const ALL: [Self; 7] = [
+        Self::Boxes,
+        Self::Direction,
+        Self::Subdivision,
+        Self::Ends,
+        Self::DoubleDouble,
+        Self::Exact,
+        Self::NonFinite,
+    ];
 }

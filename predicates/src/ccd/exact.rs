@@ -1,0 +1,116 @@
+//! The exact decision of a query, in integers on the stack as large as the coordinates ask for: [`decide`].
+
+use super::decide::{Ask, Motion};
+use super::{ContactTimes, STEP};
+use crate::arithmetic::arena::Arena;
+use crate::arithmetic::fixed_point::{COORDINATE_LIMBS, Unit};
+
+/// Limbs of an arena for one decision, per limb of a coordinate: twice the largest use, which is that of three roots or of
+/// a motion in a plane, as a test measures it with coordinates of 33 limbs.
+const LIMBS_PER_LIMB: usize = 2300;
+
+/// Limbs of a time in [0, 1], in units of at least 2^-1074.
+const TIME_LIMBS: usize = 17;
+
+/// Coordinates of up to this many bits, that is most, are decided with a small arena.
+const FEW_LIMBS: usize = 3;
+
+/// The decision of [`super::decide`] within an interval, in an arena of the size that the coordinates ask for. All are finite.
+#[cold]
+pub(super) fn decide<const N: usize>(
+    points: [&[[f64; N]]; 2],
+    corners: &[(usize, usize)],
+    interval: [f64; 2],
+    ask: Ask,
+) -> ContactTimes {
+    let coordinates = points.into_iter().flat_map(|p| p.as_flattened().iter().copied());
+    let [from, to] = interval;
+    let time_limbs = if interval == STEP { 0 } else { Unit::limbs([from, to, 1.0].into_iter()) };
+    let limbs = Unit::limbs(coordinates) + time_limbs;
+    if limbs <= FEW_LIMBS {
+        decide_within::<N, { FEW_LIMBS * LIMBS_PER_LIMB }>(points, corners, interval, ask)
+    } else if limbs <= COORDINATE_LIMBS {
+        decide_within::<N, { COORDINATE_LIMBS * LIMBS_PER_LIMB }>(points, corners, interval, ask)
+    } else {
+        decide_within::<N, { (COORDINATE_LIMBS + TIME_LIMBS) * LIMBS_PER_LIMB }>(
+            points, corners, interval, ask,
+        )
+    }
+}
+
+#[inline(never)]
+fn decide_within<const N: usize, const LIMBS: usize>(
+    points: [&[[f64; N]]; 2],
+    corners: &[(usize, usize)],
+    interval: [f64; 2],
+    ask: Ask,
+) -> ContactTimes {
+    let mut limbs = [0; LIMBS];
+    let mut arena = Arena::new(&mut limbs);
+    Motion::new(points, corners, interval, &mut arena).contact_times(ask, &mut arena)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{EDGE_EDGE, VERTEX_FACE};
+    use super::*;
+
+    /// Pseudorandom bits.
+    struct Bits(u64);
+
+    impl Bits {
+        fn next(&mut self) -> u64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            self.0 >> 33
+        }
+
+        /// As wide as coordinates can be: the largest magnitudes, some of them sharing a set with the smallest.
+        fn wide(&mut self) -> f64 {
+            let value = match self.next() % 8 {
+                0 => f64::from_bits(self.next()),
+                1 => f64::from_bits(1),
+                n => f64::MAX / n as f64,
+            };
+            if self.next().is_multiple_of(2) { value } else { -value }
+        }
+
+        /// Grid coordinates with all degeneracies, near the largest magnitude.
+        fn coarse(&mut self) -> f64 {
+            (self.next() % 9) as f64 * 2f64.powi(1019) - 2f64.powi(1021)
+        }
+    }
+
+    fn high_water(
+        t0: &[[f64; 3]; 4],
+        t1: &[[f64; 3]; 4],
+        corners: &[(usize, usize)],
+        limbs: &mut [u64],
+    ) -> usize {
+        let mut arena = Arena::new(limbs);
+        Motion::new([t0, t1], corners, STEP, &mut arena).contact_times(Ask::Count, &mut arena);
+        arena.high_water
+    }
+
+    #[test]
+    fn arenas_are_large_enough() {
+        let mut bits = Bits(11);
+        let mut limbs = [0; COORDINATE_LIMBS * LIMBS_PER_LIMB];
+        let mut most = 0;
+        for round in 0..16 {
+            let mut points: [[[f64; 3]; 4]; 2] = core::array::from_fn(|_| {
+                core::array::from_fn(|_| {
+                    core::array::from_fn(|_| if round % 3 == 0 { bits.wide() } else { bits.coarse() })
+                })
+            });
+            // One coordinate of the smallest unit makes all integers as long as they can be.
+            points[0][0][0] = f64::from_bits(1);
+            if round % 2 == 0 {
+                points.as_flattened_mut().iter_mut().for_each(|p| p[2] = p[1]);
+            }
+            let corners: &[(usize, usize)] = if round % 4 < 2 { &VERTEX_FACE } else { &EDGE_EDGE };
+            most = most.max(high_water(&points[0], &points[1], corners, &mut limbs));
+        }
+        // Half is left for what these did not reach.
+        assert!(most > limbs.len() / 8 && most < limbs.len() / 2, "{most} of {}", limbs.len());
+    }
+}
