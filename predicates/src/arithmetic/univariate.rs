@@ -254,6 +254,23 @@ pub(crate) fn roots_in_unit_interval(p: &Polynomial, arena: &mut Arena<'_>) -> R
     roots
 }
 
+/// The sign of `q`, of degree at most 2, at the root of `p`, of degree at most 3: the only one in (0, 1), where `p` changes its
+/// sign. `p` is not zero at 0 and 1.
+///
+/// The Cauchy index of `q / p` is the sign of `q` there if `p` increases, its opposite if `p` decreases.
+pub(crate) fn sign_at_root(p: &Polynomial, q: &Polynomial, arena: &mut Arena<'_>) -> Sign {
+    let mark = arena.mark();
+    let remainder = q.remainder(p, arena);
+    let index = index(p, remainder, arena);
+    arena.keep(mark, []);
+    let sign = match index {
+        0 => return Sign::Zero,
+        1.. => Sign::Positive,
+        _ => Sign::Negative,
+    };
+    -p.sign_at_0() * sign
+}
+
 impl Roots {
     pub(crate) fn count(&self) -> usize {
         self.count

@@ -24,7 +24,8 @@
 //! lies on a line. If that line misses the origin, the `n_i` are multiples of one vector, not all zero, of sum zero:
 //! some have opposite signs. If it does not, all `n_i` are zero, and a segment on a line through the origin holds it
 //! if its ends are on different sides: 3. If the polygon holds the origin and neither 1. nor 3. does, `N` is not
-//! zero and 2. holds. In the plane `f` is the only `n_i`.
+//! zero and 2. holds. Of a segment in the plane `f` is the only `n_i`; of a polygon in the plane `f` is zero, and each `n_i` has one
+//! coordinate.
 //!
 //! `f` is a cubic of `t`, each coordinate of an `n_i` a quadratic, each coordinate of a corner linear. If `f` is not zero
 //! for all `t`, the contact times are among its roots, at most three, and 0 and 1. If it is, the set of contact times
@@ -36,13 +37,12 @@
 //! Bounded by a constant. The integers have up to 2100 bits times the degree of what is formed.
 
 use super::ContactTimes;
+use super::trajectory::{minor, trajectories, volume};
 use crate::Sign;
-use crate::arithmetic::arena::{Arena, Int};
-use crate::arithmetic::fixed_point::Unit;
+use crate::arithmetic::arena::Arena;
 use crate::arithmetic::univariate::{MOST_ROOTS, Polynomial, Roots, roots_in_unit_interval};
 
-/// The most corners of a polygon.
-const MOST_CORNERS: usize = 4;
+use super::trajectory::MOST_CORNERS;
 
 /// The most functions whose signs make a contact: three coordinates of each `n_i` and of each corner.
 const MOST_SIGNS: usize = 6 * MOST_CORNERS;
@@ -56,7 +56,7 @@ pub(super) struct Motion {
     dimension: usize,
     /// `f`.
     volume: Polynomial,
-    /// Coordinates of all `n_i` (none in the plane), then of all corners.
+    /// Coordinates of all `n_i` (none of a segment in the plane), then of all corners.
     functions: [Polynomial; MOST_SIGNS],
     /// How many of these are coordinates of an `n_i`.
     normals: usize,
@@ -82,21 +82,7 @@ impl Motion {
         interval: [f64; 2],
         arena: &mut Arena<'_>,
     ) -> Self {
-        let coordinates = points.into_iter().flat_map(|p| p.as_flattened().iter().copied());
-        let unit = Unit::of(coordinates).exponent();
-        let mut places = [[Polynomial::ZERO; 3]; MOST_CORNERS];
-        for (place, &(i, j)) in places.iter_mut().zip(corners) {
-            for k in 0..N {
-                let ends = points.map(|p| {
-                    let (a, b) = (arena.load(p[i][k], unit), arena.load(p[j][k], unit));
-                    arena.sub(a, b)
-                });
-                let [start, end] =
-                    if interval == [0.0, 1.0] { ends } else { restricted(ends, interval, arena) };
-                let slope = arena.sub(end, start);
-                place[k] = Polynomial::new(&[start, slope]);
-            }
-        }
+        let places = trajectories(points, corners, interval, arena);
         let mut motion = Self {
             corners: corners.len(),
             dimension: N,
@@ -105,24 +91,23 @@ impl Motion {
             normals: 0,
             count: 0,
         };
-        if N == 2 {
-            motion.volume = minor(&places[0], &places[1], 0, 1, arena);
-        } else {
+        let next = |i: usize| &places[(i + 1) % corners.len()];
+        if N == 3 {
             for i in 0..motion.corners {
                 for k in 0..3 {
-                    let next = &places[(i + 1) % motion.corners];
-                    let normal = minor(&places[i], next, (k + 1) % 3, (k + 2) % 3, arena);
-                    motion.push(normal);
+                    motion.push(minor(&places[i], next(i), (k + 1) % 3, (k + 2) % 3, arena));
                 }
             }
             motion.normals = motion.count;
-            // det(P_0, P_1, P_last) = n_0 . P_last
-            let mark = arena.mark();
-            for (k, coordinate) in places[motion.corners - 1].iter().enumerate() {
-                let term = motion.functions[k].mul(coordinate, arena);
-                motion.volume = motion.volume.add(&term, arena);
+            let first = [0, 1, 2].map(|k| motion.functions[k]);
+            motion.volume = volume(&first, &places[motion.corners - 1], arena);
+        } else if motion.corners > 2 {
+            for i in 0..motion.corners {
+                motion.push(minor(&places[i], next(i), 0, 1, arena));
             }
-            motion.volume.keep(mark, arena);
+            motion.normals = motion.count;
+        } else {
+            motion.volume = minor(&places[0], &places[1], 0, 1, arena);
         }
         for place in &places[..motion.corners] {
             for coordinate in &place[..N] {
@@ -236,26 +221,12 @@ impl Motion {
             return true;
         }
         if normals.iter().any(|s| !s.is_zero()) {
-            (0..3).all(|k| !has_opposites(normals.iter().skip(k).step_by(3)))
+            let coordinates = normals.len() / self.corners;
+            (0..coordinates).all(|k| !has_opposites(normals.iter().skip(k).step_by(coordinates)))
         } else {
             (0..self.dimension).any(|k| has_opposites(corners.iter().skip(k).step_by(self.dimension)))
         }
     }
-}
-
-/// A coordinate at the ends of the interval, given its values at times 0 and 1; all times one power of two.
-fn restricted([at_0, at_1]: [Int; 2], interval: [f64; 2], arena: &mut Arena<'_>) -> [Int; 2] {
-    let unit = Unit::of(interval).exponent().min(0);
-    interval.map(|time| {
-        let mark = arena.mark();
-        let (one, time) = (arena.load(1.0, unit), arena.load(time, unit));
-        let origin = arena.mul(at_0, one);
-        let slope = arena.sub(at_1, at_0);
-        let way = arena.mul(slope, time);
-        let mut place = arena.add(origin, way);
-        arena.keep(mark, [&mut place]);
-        place
-    })
 }
 
 fn has_opposites<'s>(signs: impl Iterator<Item = &'s Sign>) -> bool {
@@ -265,14 +236,4 @@ fn has_opposites<'s>(signs: impl Iterator<Item = &'s Sign>) -> bool {
         negative |= sign == Sign::Negative;
     }
     positive && negative
-}
-
-/// `a_i b_j - a_j b_i`.
-fn minor(a: &[Polynomial; 3], b: &[Polynomial; 3], i: usize, j: usize, arena: &mut Arena<'_>) -> Polynomial {
-    let mark = arena.mark();
-    let first = a[i].mul(&b[j], arena);
-    let second = a[j].mul(&b[i], arena);
-    let mut minor = first.add(&second.negated(), arena);
-    minor.keep(mark, arena);
-    minor
 }

@@ -1,9 +1,10 @@
 //! The exact decision of a query, in integers on the stack as large as the coordinates ask for: [`decide`].
 
 use super::decide::{Ask, Motion};
-use super::{ContactTimes, STEP};
+use super::subdivision::Bracket;
+use super::{ContactTimes, at_root, trajectory};
 use crate::arithmetic::arena::Arena;
-use crate::arithmetic::fixed_point::{COORDINATE_LIMBS, Unit};
+use crate::arithmetic::fixed_point::COORDINATE_LIMBS;
 
 /// Limbs of an arena for one decision, per limb of a coordinate: twice the largest use, which is that of three roots or of
 /// a motion in a plane, as a test measures it with coordinates of 33 limbs.
@@ -23,10 +24,7 @@ pub(super) fn decide<const N: usize>(
     interval: [f64; 2],
     ask: Ask,
 ) -> ContactTimes {
-    let coordinates = points.into_iter().flat_map(|p| p.as_flattened().iter().copied());
-    let [from, to] = interval;
-    let time_limbs = if interval == STEP { 0 } else { Unit::limbs([from, to, 1.0].into_iter()) };
-    let limbs = Unit::limbs(coordinates) + time_limbs;
+    let limbs = trajectory::limbs(points, interval);
     if limbs <= FEW_LIMBS {
         decide_within::<N, { FEW_LIMBS * LIMBS_PER_LIMB }>(points, corners, interval, ask)
     } else if limbs <= COORDINATE_LIMBS {
@@ -50,9 +48,34 @@ fn decide_within<const N: usize, const LIMBS: usize>(
     Motion::new(points, corners, interval, &mut arena).contact_times(ask, &mut arena)
 }
 
+/// Limbs of an arena for a decision at one root, per limb of a coordinate: twice the largest use, as a test measures it.
+const LIMBS_AT_ROOT: usize = 600;
+
+/// The decision of [`super::at_root`], in an arena of the size that the coordinates ask for. All are finite.
+#[cold]
+pub(super) fn holds_at_root(points: [&[[f64; 3]]; 2], corners: &[(usize, usize)], bracket: &Bracket) -> bool {
+    let limbs = trajectory::limbs(points, bracket.single);
+    if limbs <= FEW_LIMBS {
+        holds_within::<{ FEW_LIMBS * LIMBS_AT_ROOT }>(points, corners, bracket)
+    } else {
+        holds_within::<{ (COORDINATE_LIMBS + TIME_LIMBS) * LIMBS_AT_ROOT }>(points, corners, bracket)
+    }
+}
+
+#[inline(never)]
+fn holds_within<const LIMBS: usize>(
+    points: [&[[f64; 3]]; 2],
+    corners: &[(usize, usize)],
+    bracket: &Bracket,
+) -> bool {
+    let mut limbs = [0; LIMBS];
+    let Bracket { single, axes, sides, .. } = *bracket;
+    at_root::holds_at_root(points, corners, single, axes, sides, &mut Arena::new(&mut limbs))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::{EDGE_EDGE, VERTEX_FACE};
+    use super::super::{EDGE_EDGE, STEP, VERTEX_FACE};
     use super::*;
 
     /// Pseudorandom bits.

@@ -28,6 +28,7 @@
 //! In contrast to crossing parity \[Brochu12\] an even number of contacts is seen, and no ray is cast. Which stage settled a query
 //! is told by [`staged`].
 
+mod at_root;
 mod corners;
 mod decide;
 mod exact;
@@ -40,6 +41,7 @@ mod settle;
 mod stage;
 pub mod staged;
 mod subdivision;
+mod trajectory;
 
 pub use query::{
     ContactTimes, edge_edge, edge_edge_during, edge_edge_times, vertex_face, vertex_face_during,

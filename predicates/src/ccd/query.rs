@@ -196,8 +196,8 @@ pub fn vertex_segment_2d_times(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -
 }
 
 /// What answers an exact question about a step.
-trait Exactly: Fn([f64; 2], Ask) -> ContactTimes {}
-impl<F: Fn([f64; 2], Ask) -> ContactTimes> Exactly for F {}
+trait Exactly: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes {}
+impl<F: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Exactly for F {}
 
 #[inline(always)]
 fn of_vertex_face(step: &Step) -> Query<'_, 3, impl Exactly> {
@@ -205,7 +205,7 @@ fn of_vertex_face(step: &Step) -> Query<'_, 3, impl Exactly> {
         step,
         corners: &VERTEX_FACE,
         touch: |[v, f0, f1, f2]| triangle_contains_3d([f0, f1, f2], v),
-        exact: |interval, ask| decide([&step[0], &step[1]], &VERTEX_FACE, interval, ask),
+        exact: |interval, ask, axes| decide_in(step, axes, &VERTEX_FACE, interval, ask),
     }
 }
 
@@ -215,7 +215,7 @@ fn of_edge_edge(step: &Step) -> Query<'_, 4, impl Exactly> {
         step,
         corners: &EDGE_EDGE,
         touch: |[ea0, ea1, eb0, eb1]| segments_intersect_3d([ea0, ea1], [eb0, eb1]),
-        exact: |interval, ask| decide([&step[0], &step[1]], &EDGE_EDGE, interval, ask),
+        exact: |interval, ask, axes| decide_in(step, axes, &EDGE_EDGE, interval, ask),
     }
 }
 
@@ -226,8 +226,21 @@ fn of_vertex_segment<'s>(plane: &'s [[[f64; 2]; 3]; 2], lifted: &'s Step) -> Que
         step: lifted,
         corners: &EDGE_EDGE,
         touch: |[ea0, ea1, eb0, eb1]| segments_intersect_3d([ea0, ea1], [eb0, eb1]),
-        exact: |interval, ask| decide([&plane[0], &plane[1]], &VERTEX_SEGMENT, interval, ask),
+        exact: |interval, ask, _| decide([&plane[0], &plane[1]], &VERTEX_SEGMENT, interval, ask),
     }
+}
+
+/// The exact decision in space, or in the plane of two axes.
+fn decide_in(
+    step: &Step,
+    axes: Option<[usize; 2]>,
+    corners: &[(usize, usize)],
+    interval: [f64; 2],
+    ask: Ask,
+) -> ContactTimes {
+    let Some(axes) = axes else { return decide([&step[0], &step[1]], corners, interval, ask) };
+    let [p, q] = step.map(|places| places.map(|point| axes.map(|k| point[k])));
+    decide([&p, &q], corners, interval, ask)
 }
 
 #[inline(always)]

@@ -5,8 +5,8 @@ use super::decide::Ask;
 use super::moment::{LEAST, MOST};
 use super::number::Number;
 use super::stage::Stage;
-use super::subdivision::Verdict;
-use super::{ContactTimes, STEP};
+use super::subdivision::{Bracket, Verdict};
+use super::{ContactTimes, STEP, exact};
 use crate::arithmetic::double_double::DoubleDouble;
 use crate::arithmetic::scaled::power_of_two;
 
@@ -20,7 +20,7 @@ pub(super) struct Query<'s, const K: usize, E> {
     pub(super) corners: &'static [(usize, usize); K],
     /// Whether the primitives touch when they are at rest.
     pub(super) touch: fn([[f64; 3]; 4]) -> bool,
-    /// The exact decision within an interval of the step.
+    /// The exact decision within an interval of the step; of motion in the plane of two axes, if they are given.
     pub(super) exact: E,
 }
 
@@ -30,7 +30,7 @@ const MOST_INTERVALS: usize = 24;
 /// The same for double-double numbers, whose intervals cost a microsecond each.
 const MOST_FINE_INTERVALS: usize = 8;
 
-impl<const K: usize, E: Fn([f64; 2], Ask) -> ContactTimes> Query<'_, K, E> {
+impl<const K: usize, E: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Query<'_, K, E> {
     /// Whether there is a contact, and the stage that told.
     #[inline(always)]
     pub(super) fn settle(&self) -> (bool, Stage) {
@@ -51,7 +51,10 @@ impl<const K: usize, E: Fn([f64; 2], Ask) -> ContactTimes> Query<'_, K, E> {
     pub(super) fn contact_times(&self) -> ContactTimes {
         let corners = self.rounded(None);
         let clear = apart(&corners).is_some() || corners.separated_otherwise() || !self.is_finite();
-        if clear { ContactTimes::Finite(0) } else { (self.exact)(STEP, Ask::Count) }
+        if clear {
+            return ContactTimes::Finite(0);
+        }
+        (self.exact)(STEP, Ask::Count, plane_of(corners.maxima.map(|m| m == 0.0)))
     }
 
     #[inline(always)]
@@ -82,17 +85,19 @@ impl<const K: usize, E: Fn([f64; 2], Ask) -> ContactTimes> Query<'_, K, E> {
             [false, false, false] if scaled.in_range() => {
                 return self.settle_in_space(&scaled, Some(scale), interval);
             }
-            [true, false, false] => [1, 2],
-            [false, true, false] => [2, 0],
-            [false, false, true] => [0, 1],
             // Along a line the boxes, which are not apart, are the whole truth: see `planar`.
-            _ if interval == STEP => return (true, Stage::Boxes),
-            _ => return (self.decide(interval), Stage::Exact),
+            zeros if interval == STEP && zeros.into_iter().filter(|&zero| zero).count() > 1 => {
+                return (true, Stage::Boxes);
+            }
+            zeros => match plane_of(zeros) {
+                Some(axes) => axes,
+                None => return (self.decide(interval, None), Stage::Exact),
+            },
         };
-        match scaled.examine_planar(axes, interval) {
-            Some(contact) => (contact, Stage::Subdivision),
-            None => self.settle_ends(interval).unwrap_or_else(|| (self.decide(interval), Stage::Exact)),
+        if let Some(contact) = scaled.examine_planar(axes, interval) {
+            return (contact, Stage::Subdivision);
         }
+        self.settle_ends(interval).unwrap_or_else(|| (self.decide(interval, Some(axes)), Stage::Exact))
     }
 
     /// Rounded numbers, then contact at the ends, then more digits, then exact integers.
@@ -109,9 +114,16 @@ impl<const K: usize, E: Fn([f64; 2], Ask) -> ContactTimes> Query<'_, K, E> {
         if !self.is_finite() {
             return (false, Stage::NonFinite);
         }
-        self.settle_ends(interval)
-            .or_else(|| self.settle_finely(&verdict, scale, interval))
-            .unwrap_or_else(|| (self.decide(interval), Stage::Exact))
+        if let Some(settled) = self.settle_ends(interval) {
+            return settled;
+        }
+        match self.examine_finely(verdict, scale, interval) {
+            Verdict::Decided(contact) => (contact, Stage::DoubleDouble),
+            Verdict::Brackets(brackets) => {
+                (brackets.iter().flatten().any(|bracket| self.decide_at_root(bracket)), Stage::Exact)
+            }
+            Verdict::Open => (self.decide(interval, None), Stage::Exact),
+        }
     }
 
     /// A contact at an end of the step.
@@ -122,36 +134,37 @@ impl<const K: usize, E: Fn([f64; 2], Ask) -> ContactTimes> Query<'_, K, E> {
 
     /// In double-double numbers: the brackets that are left, or the whole interval.
     #[inline(never)]
-    fn settle_finely(
-        &self,
-        verdict: &Verdict,
-        scale: Option<[f64; 3]>,
-        interval: [f64; 2],
-    ) -> Option<(bool, Stage)> {
+    fn examine_finely(&self, verdict: Verdict, scale: Option<[f64; 3]>, interval: [f64; 2]) -> Verdict {
         let fine: Corners<DoubleDouble, K> = self.rounded(scale);
-        let contact = match verdict {
-            Verdict::Decided(contact) => Some(*contact),
-            Verdict::Brackets(brackets) => {
-                let mut contact = Some(false);
-                for bracket in brackets.iter().flatten() {
-                    match fine.examine_bracket(bracket) {
-                        Some(true) => return Some((true, Stage::DoubleDouble)),
-                        Some(false) => {}
-                        None => contact = None,
-                    }
-                }
-                contact
-            }
-            Verdict::Open => match fine.examine(interval, MOST_FINE_INTERVALS) {
-                Verdict::Decided(contact) => Some(contact),
-                _ => None,
-            },
+        let Verdict::Brackets(mut brackets) = verdict else {
+            return fine.examine(interval, MOST_FINE_INTERVALS);
         };
-        contact.map(|contact| (contact, Stage::DoubleDouble))
+        for bracket in &mut brackets {
+            match bracket.as_ref().map(|bracket| fine.examine_bracket(bracket)) {
+                Some(Some(true)) => return Verdict::Decided(true),
+                Some(Some(false)) => *bracket = None,
+                _ => {}
+            }
+        }
+        if brackets.iter().all(Option::is_none) {
+            Verdict::Decided(false)
+        } else {
+            Verdict::Brackets(brackets)
+        }
     }
 
-    fn decide(&self, interval: [f64; 2]) -> bool {
-        (self.exact)(interval, Ask::Any).any()
+    /// Exact integers, at the root of a bracket.
+    fn decide_at_root(&self, bracket: &Bracket) -> bool {
+        if bracket.sides.positive | bracket.sides.negative == 0 {
+            return self.decide(bracket.single, None);
+        }
+        let [t0, t1] = self.step;
+        exact::holds_at_root([t0, t1], self.corners, bracket)
+    }
+
+    /// Exact integers, within an interval; of motion in the plane of two axes, if they are given.
+    fn decide(&self, interval: [f64; 2], axes: Option<[usize; 2]>) -> bool {
+        (self.exact)(interval, Ask::Any, axes).any()
     }
 
     /// Powers of two, one for each axis, that bring the coordinates below 1, but for the smallest, which become larger
@@ -163,6 +176,17 @@ impl<const K: usize, E: Fn([f64; 2], Ask) -> ContactTimes> Query<'_, K, E> {
             let exponent = (largest.to_bits() >> 52) as i32 - 1022;
             power_of_two((-exponent).clamp(-1000, 1000))
         })
+    }
+}
+
+/// The axes of the coordinate plane in which all motion is, given which coordinates are zero throughout; none if it is not, or
+/// if it is along one line.
+fn plane_of(zeros: [bool; 3]) -> Option<[usize; 2]> {
+    match zeros {
+        [true, false, false] => Some([1, 2]),
+        [false, true, false] => Some([2, 0]),
+        [false, false, true] => Some([0, 1]),
+        _ => None,
     }
 }
 

@@ -36,7 +36,9 @@ const MOST_BRACKETS: usize = 3;
 /// An interval with one root of `f`, at which it is open whether the polygon holds the origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bracket {
-    /// `f` has strict and opposite signs at these times.
+    /// The root is the only one between these times, at which `f` has strict and opposite signs.
+    pub(super) single: [f64; 2],
+    /// The same, as narrow as the numbers allow.
     pub(super) interval: [f64; 2],
     /// The coordinates that give the sides.
     pub(super) axes: [usize; 2],
@@ -131,6 +133,7 @@ impl<T: Number, const K: usize> Corners<T, K> {
 
     /// Shrinks a bracket with one root of `f`, at whose ends `f` has strict and opposite signs.
     fn shrink(&self, [mut low, mut high]: [Moment<T, K>; 2], axes: [usize; 2], known: Sides) -> Shrunk {
+        let single = [low.t.leading(), high.t.leading()];
         let error = self.volume_error();
         let sign_low = certain(low.volume.leading(), error);
         let mut sides = known;
@@ -166,15 +169,21 @@ impl<T: Number, const K: usize> Corners<T, K> {
                 high = middle;
             }
         }
-        if sides.differ() {
-            Shrunk::Apart
-        } else if sides.agree::<K>() {
-            Shrunk::Contact
-        } else {
-            let interval = [low.t.leading(), high.t.leading()];
-            Shrunk::Stuck(Bracket { interval, axes, sides })
+        // At last along all axes: the vector area may have turned since these were chosen.
+        let [x, y] = axes;
+        for other in [[x, y], [y, 3 - x - y], [3 - x - y, x]] {
+            let sides = if other == axes { sides } else { self.sides(&low, &high, other, Sides::UNKNOWN) };
+            if sides.differ() {
+                return Shrunk::Apart;
+            }
+            if sides.agree::<K>() {
+                return Shrunk::Contact;
+            }
         }
+        let interval = [low.t.leading(), high.t.leading()];
+        Shrunk::Stuck(Bracket { single, interval, axes, sides })
     }
+
     /// A narrow bracket around a time within another, at which `f` is zero as far as these numbers can tell.
     fn around(
         &self,
