@@ -91,25 +91,26 @@ impl Motion {
             normals: 0,
             count: 0,
         };
-        let next = |i: usize| &places[(i + 1) % corners.len()];
+        let places = &places[..corners.len()];
+        let sides = || places.iter().zip(places.iter().cycle().skip(1));
         if N == 3 {
-            for i in 0..motion.corners {
+            for (place, next) in sides() {
                 for k in 0..3 {
-                    motion.push(minor(&places[i], next(i), (k + 1) % 3, (k + 2) % 3, arena));
+                    motion.push(minor(place, next, (k + 1) % 3, (k + 2) % 3, arena));
                 }
             }
             motion.normals = motion.count;
             let first = [0, 1, 2].map(|k| motion.functions[k]);
             motion.volume = volume(&first, &places[motion.corners - 1], arena);
         } else if motion.corners > 2 {
-            for i in 0..motion.corners {
-                motion.push(minor(&places[i], next(i), 0, 1, arena));
+            for (place, next) in sides() {
+                motion.push(minor(place, next, 0, 1, arena));
             }
             motion.normals = motion.count;
         } else {
             motion.volume = minor(&places[0], &places[1], 0, 1, arena);
         }
-        for place in &places[..motion.corners] {
+        for place in places {
             for coordinate in &place[..N] {
                 motion.push(*coordinate);
             }

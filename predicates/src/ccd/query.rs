@@ -2,9 +2,9 @@
 
 use super::decide::Ask;
 use super::exact::decide;
-use super::settle::{Query, Step};
+use super::settle::{Query, Step, culled};
 use super::stage::Stage;
-use super::{EDGE_EDGE, VERTEX_FACE, VERTEX_SEGMENT};
+use super::{EDGE_EDGE, STEP, VERTEX_FACE, VERTEX_SEGMENT};
 use crate::Point;
 use crate::intersection::{segments_intersect_3d, triangle_contains_3d};
 
@@ -47,7 +47,11 @@ pub fn vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
 #[inline]
 #[must_use]
 pub fn staged_vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> (bool, Stage) {
-    of_vertex_face(&[t0.map(Point::coords), t1.map(Point::coords)]).settle()
+    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
+    match culled(&t0, &t1, &VERTEX_FACE) {
+        Some(stage) => (false, stage),
+        None => settle_vertex_face([t0, t1].map(copied), STEP),
+    }
 }
 
 /// Whether the moving vertex touches the moving triangle at a time of the closed `interval` of the step.
@@ -67,8 +71,10 @@ pub fn staged_vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> (bo
 /// ```
 #[must_use]
 pub fn vertex_face_during(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4], interval: [f64; 2]) -> bool {
+    let step = [t0.map(Point::coords), t1.map(Point::coords)];
     is_part_of_step(interval)
-        && of_vertex_face(&[t0.map(Point::coords), t1.map(Point::coords)]).settle_during(interval)
+        && culled(&step[0], &step[1], &VERTEX_FACE).is_none()
+        && settle_vertex_face(step, interval).0
 }
 
 /// At how many times of the closed step the moving vertex touches the moving triangle; arguments as for [`vertex_face`].
@@ -82,7 +88,11 @@ pub fn vertex_face_during(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4], interv
 /// ```
 #[must_use]
 pub fn vertex_face_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> ContactTimes {
-    of_vertex_face(&[t0.map(Point::coords), t1.map(Point::coords)]).contact_times()
+    let step = [t0.map(Point::coords), t1.map(Point::coords)];
+    match culled(&step[0], &step[1], &VERTEX_FACE) {
+        Some(_) => ContactTimes::Finite(0),
+        None => of_vertex_face(&step).contact_times(),
+    }
 }
 
 /// Whether the moving edges touch at a time of the closed step.
@@ -107,7 +117,11 @@ pub fn edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> bool {
 #[inline]
 #[must_use]
 pub fn staged_edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> (bool, Stage) {
-    of_edge_edge(&[t0.map(Point::coords), t1.map(Point::coords)]).settle()
+    let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
+    match culled(&t0, &t1, &EDGE_EDGE) {
+        Some(stage) => (false, stage),
+        None => settle_edge_edge([t0, t1].map(copied), STEP),
+    }
 }
 
 /// Whether the moving edges touch at a time of the closed `interval` of the step; `t0` and `t1` as for [`edge_edge`],
@@ -123,8 +137,10 @@ pub fn staged_edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> (bool
 /// ```
 #[must_use]
 pub fn edge_edge_during(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4], interval: [f64; 2]) -> bool {
+    let step = [t0.map(Point::coords), t1.map(Point::coords)];
     is_part_of_step(interval)
-        && of_edge_edge(&[t0.map(Point::coords), t1.map(Point::coords)]).settle_during(interval)
+        && culled(&step[0], &step[1], &EDGE_EDGE).is_none()
+        && settle_edge_edge(step, interval).0
 }
 
 /// At how many times of the closed step the moving edges touch; arguments as for [`edge_edge`].
@@ -137,7 +153,11 @@ pub fn edge_edge_during(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4], interval
 /// ```
 #[must_use]
 pub fn edge_edge_times(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> ContactTimes {
-    of_edge_edge(&[t0.map(Point::coords), t1.map(Point::coords)]).contact_times()
+    let step = [t0.map(Point::coords), t1.map(Point::coords)];
+    match culled(&step[0], &step[1], &EDGE_EDGE) {
+        Some(_) => ContactTimes::Finite(0),
+        None => of_edge_edge(&step).contact_times(),
+    }
 }
 
 /// Whether the moving vertex touches the moving segment of the plane at a time of the closed step.
@@ -161,7 +181,11 @@ pub fn vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> bool
 #[must_use]
 pub fn staged_vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> (bool, Stage) {
     let plane = [t0.map(Point::coords), t1.map(Point::coords)];
-    of_vertex_segment(&plane, &plane.map(lifted)).settle()
+    let step = plane.map(lifted);
+    match culled(&step[0], &step[1], &EDGE_EDGE) {
+        Some(stage) => (false, stage),
+        None => of_vertex_segment(&plane, &step).settle(STEP),
+    }
 }
 
 /// Whether the moving vertex touches the moving segment at a time of the closed `interval` of the step; `t0` and `t1` as for
@@ -177,7 +201,10 @@ pub fn staged_vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) 
 #[must_use]
 pub fn vertex_segment_2d_during(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3], interval: [f64; 2]) -> bool {
     let plane = [t0.map(Point::coords), t1.map(Point::coords)];
-    is_part_of_step(interval) && of_vertex_segment(&plane, &plane.map(lifted)).settle_during(interval)
+    let step = plane.map(lifted);
+    is_part_of_step(interval)
+        && culled(&step[0], &step[1], &EDGE_EDGE).is_none()
+        && of_vertex_segment(&plane, &step).settle(interval).0
 }
 
 /// At how many times of the closed step the moving vertex touches the moving segment; arguments as for
@@ -192,7 +219,28 @@ pub fn vertex_segment_2d_during(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3], 
 #[must_use]
 pub fn vertex_segment_2d_times(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> ContactTimes {
     let plane = [t0.map(Point::coords), t1.map(Point::coords)];
-    of_vertex_segment(&plane, &plane.map(lifted)).contact_times()
+    let step = plane.map(lifted);
+    match culled(&step[0], &step[1], &EDGE_EDGE) {
+        Some(_) => ContactTimes::Finite(0),
+        None => of_vertex_segment(&plane, &step).contact_times(),
+    }
+}
+
+/// A fresh array, made where the fast path is left: passing the first one on would keep the coordinates of the fast path in
+/// memory instead of registers.
+#[inline(always)]
+fn copied(places: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
+    core::array::from_fn(|i| core::array::from_fn(|k| places[i][k]))
+}
+
+#[inline(never)]
+fn settle_vertex_face(step: Step, interval: [f64; 2]) -> (bool, Stage) {
+    of_vertex_face(&step).settle(interval)
+}
+
+#[inline(never)]
+fn settle_edge_edge(step: Step, interval: [f64; 2]) -> (bool, Stage) {
+    of_edge_edge(&step).settle(interval)
 }
 
 /// What answers an exact question about a step.
@@ -239,7 +287,7 @@ fn decide_in(
     ask: Ask,
 ) -> ContactTimes {
     let Some(axes) = axes else { return decide([&step[0], &step[1]], corners, interval, ask) };
-    let [p, q] = step.map(|places| places.map(|point| axes.map(|k| point[k])));
+    let [p, q] = step.map(|places: [[f64; 3]; 4]| places.map(|point| axes.map(|k| point[k])));
     decide([&p, &q], corners, interval, ask)
 }
 

@@ -13,6 +13,56 @@ use crate::arithmetic::scaled::power_of_two;
 /// The places of four points at the beginning and at the end of a step.
 pub(super) type Step = [[[f64; 3]; 4]; 2];
 
+/// What no copy of the coordinates is needed for: boxes and the likeliest directions. The stage that tells that there is no contact.
+#[inline(always)]
+pub(super) fn culled<const K: usize>(
+    t0: &[[f64; 3]; 4],
+    t1: &[[f64; 3]; 4],
+    corners: &[(usize, usize); K],
+) -> Option<Stage> {
+    if boxes_apart::<K>(t0, t1) {
+        return Some(Stage::Boxes);
+    }
+    Corners::new([t0, t1], corners, None).separated_by_likeliest().then_some(Stage::Direction)
+}
+
+/// True when, along some axis, all corners are strictly on one side of the origin at both ends of the step, and so
+/// throughout. Compares coordinates; nothing is rounded.
+#[inline(always)]
+fn boxes_apart<const K: usize>(t0: &[[f64; 3]; 4], t1: &[[f64; 3]; 4]) -> bool {
+    let mut apart = false;
+    for k in 0..3 {
+        // The corners are all differences of one of the first points and one of the others.
+        let [a, b] = [t0, t1].map(|p| Spread::of::<K>([p[0][k], p[1][k], p[2][k], p[3][k]]));
+        apart |= (a.low > a.other_high) & (b.low > b.other_high);
+        apart |= (a.high < a.other_low) & (b.high < b.other_low);
+    }
+    apart
+}
+
+/// The extents of two primitives along an axis.
+struct Spread {
+    low: f64,
+    high: f64,
+    other_low: f64,
+    other_high: f64,
+}
+
+impl Spread {
+    /// Of a vertex and a face for three corners, of two edges for four.
+    #[inline(always)]
+    fn of<const K: usize>([p, q, r, s]: [f64; 4]) -> Self {
+        let least = |a: f64, b: f64| if a < b { a } else { b };
+        let most = |a: f64, b: f64| if a > b { a } else { b };
+        let (low, high) = (least(r, s), most(r, s));
+        if K == 3 {
+            Self { low: least(low, q), high: most(high, q), other_low: p, other_high: p }
+        } else {
+            Self { low, high, other_low: least(p, q), other_high: most(p, q) }
+        }
+    }
+}
+
 /// Two moving primitives: whether and when they touch is whether and when a polygon of `K` corners holds the origin.
 pub(super) struct Query<'s, const K: usize, E> {
     pub(super) step: &'s Step,
@@ -31,27 +81,25 @@ const MOST_INTERVALS: usize = 24;
 const MOST_FINE_INTERVALS: usize = 8;
 
 impl<const K: usize, E: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Query<'_, K, E> {
-    /// Whether there is a contact, and the stage that told.
-    #[inline(always)]
-    pub(super) fn settle(&self) -> (bool, Stage) {
+    /// Whether there is a contact in the closed interval, which is a part of the step, after [`culled`] has said nothing.
+    pub(super) fn settle(&self, interval: [f64; 2]) -> (bool, Stage) {
         let corners = self.rounded(None);
-        match apart(&corners) {
-            Some(stage) => (false, stage),
-            None => self.settle_close(&corners, STEP),
+        if corners.separated_otherwise() {
+            return (false, Stage::Direction);
         }
+        if corners.in_range() {
+            return self.settle_in_space(&corners, None, interval);
+        }
+        if !self.is_finite() {
+            return (false, Stage::NonFinite);
+        }
+        self.settle_out_of_range(&corners, interval)
     }
 
-    /// Whether there is a contact in the closed interval, which is a part of the step.
-    pub(super) fn settle_during(&self, interval: [f64; 2]) -> bool {
-        let corners = self.rounded(None);
-        apart(&corners).is_none() && self.settle_close(&corners, interval).0
-    }
-
-    /// The contact times.
+    /// The contact times, after [`culled`] has said nothing.
     pub(super) fn contact_times(&self) -> ContactTimes {
-        let corners = self.rounded(None);
-        let clear = apart(&corners).is_some() || corners.separated_otherwise() || !self.is_finite();
-        if clear {
+        let corners = self.rounded::<f64>(None);
+        if corners.separated_otherwise() || !self.is_finite() {
             return ContactTimes::Finite(0);
         }
         (self.exact)(STEP, Ask::Count, plane_of(corners.maxima.map(|m| m == 0.0)))
@@ -59,25 +107,15 @@ impl<const K: usize, E: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Q
 
     #[inline(always)]
     fn rounded<T: Number>(&self, scale: Option<[f64; 3]>) -> Corners<T, K> {
-        Corners::new(self.step, self.corners, scale)
+        Corners::new([&self.step[0], &self.step[1]], self.corners, scale)
     }
 
     fn is_finite(&self) -> bool {
         self.step.as_flattened().as_flattened().iter().all(|x| x.is_finite())
     }
 
-    /// For what boxes and normals leave open.
-    #[inline(never)]
-    fn settle_close(&self, corners: &Corners<f64, K>, interval: [f64; 2]) -> (bool, Stage) {
-        if corners.separated_otherwise() {
-            return (false, Stage::Direction);
-        }
-        if corners.in_range() {
-            return self.settle_in_space(corners, None, interval);
-        }
-        if !self.is_finite() {
-            return (false, Stage::NonFinite);
-        }
+    /// For coordinates that are zero throughout, or near the ends of the exponent range.
+    fn settle_out_of_range(&self, corners: &Corners<f64, K>, interval: [f64; 2]) -> (bool, Stage) {
         let scale = self.scale();
         let scaled = self.rounded(Some(scale));
         let axes = match corners.maxima.map(|m| m == 0.0) {
@@ -188,15 +226,6 @@ fn plane_of(zeros: [bool; 3]) -> Option<[usize; 2]> {
         [false, false, true] => Some([0, 1]),
         _ => None,
     }
-}
-
-/// The stage that tells, without more ado, that there is no contact.
-#[inline(always)]
-fn apart<const K: usize>(corners: &Corners<f64, K>) -> Option<Stage> {
-    if corners.boxes_apart() {
-        return Some(Stage::Boxes);
-    }
-    corners.normals().into_iter().any(|n| corners.separated_by(n)).then_some(Stage::Direction)
 }
 
 const _: () = assert!(LEAST < 1.0 && MOST > 1.0, "scaled coordinates are in the range");
