@@ -30,7 +30,9 @@
 //! `f` is a cubic of `t`, each coordinate of an `n_i` a quadratic, each coordinate of a corner linear. If `f` is not zero
 //! for all `t`, the contact times are among its roots, at most three, and 0 and 1. If it is, the set of contact times
 //! is closed and can begin or end only at 0, 1 or a root of one of the quadratics or linear functions: these are
-//! examined, and the signs just before and after each tell whether there is an interval of contact. Signs at roots are
+//! examined, and the signs just before and after each tell whether there is an interval of contact. To know whether there is any
+//! contact, less is enough: if there is none at 0 and a first one later, then the origin is on an edge at that time, where `n_i`
+//! is zero and `P_i . P_{i+1}` is not positive. Signs at roots are
 //! exact ([`crate::arithmetic::univariate`]).
 //!
 //! # Cost
@@ -132,8 +134,12 @@ impl Motion {
         if count > 0 && ask == Ask::Any {
             return ContactTimes::Finite(count);
         }
+        if self.volume.is_zero() && ask == Ask::Any {
+            let contact = (0..self.edges()).any(|i| self.edge_touches(i, arena));
+            return ContactTimes::Finite(u8::from(contact));
+        }
         if self.volume.is_zero() {
-            return self.flat_contact_times(count, ask, arena);
+            return self.flat_contact_times(count, arena);
         }
         let mut count = count;
         let roots = roots_in_unit_interval(&self.volume, arena);
@@ -146,7 +152,7 @@ impl Motion {
 
     /// The contact times of a motion that stays in a plane through the origin (or on a line, in the plane), given
     /// the number of contacts at times 0 and 1.
-    fn flat_contact_times(&self, at_ends: u8, ask: Ask, arena: &mut Arena<'_>) -> ContactTimes {
+    fn flat_contact_times(&self, at_ends: u8, arena: &mut Arena<'_>) -> ContactTimes {
         let mut count = at_ends;
         let after_0 = self.signs_of(|q, a| q.sign_after_0(a), arena);
         let before_1 = self.signs_of(|q, a| q.sign_before_1(a), arena);
@@ -184,11 +190,46 @@ impl Motion {
                 let first = (0..candidate).all(|i| self.functions[i].is_zero() || !at[r][i].is_zero());
                 count += u8::from(first && self.touches(Sign::Zero, &at[r]));
             }
-            if count > 0 && ask == Ask::Any {
-                break;
-            }
         }
         ContactTimes::Finite(count)
+    }
+
+    /// How many edges the polygon has: a segment has one.
+    fn edges(&self) -> usize {
+        if self.corners == 2 { 1 } else { self.corners }
+    }
+
+    /// Whether edge `i` holds the origin at a time strictly between 0 and 1: that of a motion in a plane or on a line.
+    fn edge_touches(&self, i: usize, arena: &mut Arena<'_>) -> bool {
+        let mark = arena.mark();
+        let corner = |i: usize| &self.functions[self.normals + i * self.dimension..][..self.dimension];
+        let mut product = Polynomial::ZERO;
+        for (p, q) in corner(i).iter().zip(corner((i + 1) % self.corners)) {
+            let term = p.mul(q, arena);
+            product = product.add(&term, arena);
+        }
+        product.keep(mark, arena);
+        let coordinates = self.normals / self.corners;
+        let normal = &self.functions[i * coordinates..][..coordinates];
+        let touches = match normal.iter().find(|n| !n.is_zero()) {
+            // On the line of the edge throughout: between its ends when these change sides.
+            None => {
+                let outside = product.sign_at_0() == Sign::Positive;
+                !outside || roots_in_unit_interval(&product, arena).count() > 0
+            }
+            Some(first) => {
+                let roots = roots_in_unit_interval(first, arena);
+                let mut at = [true; MOST_ROOTS];
+                for n in normal {
+                    let signs = roots.signs(n, arena);
+                    at = core::array::from_fn(|r| at[r] && signs[r].is_zero());
+                }
+                let between = roots.signs(&product, arena);
+                (0..roots.count()).any(|r| at[r] && between[r] != Sign::Positive)
+            }
+        };
+        arena.keep(mark, []);
+        touches
     }
 
     fn signs_of(&self, sign: impl Fn(&Polynomial, &mut Arena<'_>) -> Sign, arena: &mut Arena<'_>) -> Signs {
