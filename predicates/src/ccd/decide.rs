@@ -126,11 +126,11 @@ impl Motion {
     }
 
     pub(super) fn contact_times(&self, ask: Ask, arena: &mut Arena<'_>) -> ContactTimes {
-        let ends = [
-            self.touches(self.volume.sign_at_0(), &self.signs_of(|q, _| q.sign_at_0(), arena)),
-            self.touches(self.volume.sign_at_1(arena), &self.signs_of(|q, a| q.sign_at_1(a), arena)),
-        ];
-        let count = u8::from(ends[0]) + u8::from(ends[1]);
+        let at_0 = self.volume.sign_at_0().is_zero()
+            && self.touches(Sign::Zero, &self.signs_of(|q, _| q.sign_at_0(), arena));
+        let at_1 = self.volume.sign_at_1(arena).is_zero()
+            && self.touches(Sign::Zero, &self.signs_of(|q, a| q.sign_at_1(a), arena));
+        let count = u8::from(at_0) + u8::from(at_1);
         if count > 0 && ask == Ask::Any {
             return ContactTimes::Finite(count);
         }
@@ -141,13 +141,54 @@ impl Motion {
         if self.volume.is_zero() {
             return self.flat_contact_times(count, arena);
         }
-        let mut count = count;
         let roots = roots_in_unit_interval(&self.volume, arena);
-        let signs = self.signs_at(&roots, arena);
-        for at in &signs[..roots.count()] {
-            count += u8::from(self.touches(Sign::Zero, at));
+        let inside = self.touches_at(&roots, arena).into_iter().filter(|&touches| touches).count();
+        ContactTimes::Finite(count + inside as u8)
+    }
+
+    /// Whether the polygon holds the origin at each of the roots of the volume.
+    ///
+    /// One coordinate of the `n_i` that is not zero for all tells as much as all three: they are multiples of one vector.
+    fn touches_at(&self, roots: &Roots, arena: &mut Arena<'_>) -> [bool; MOST_ROOTS] {
+        let mut touches = [false; MOST_ROOTS];
+        let mut settled: [bool; MOST_ROOTS] = core::array::from_fn(|r| r >= roots.count());
+        let coordinates = self.normals / self.corners;
+        for k in 0..coordinates {
+            if settled == [true; MOST_ROOTS] {
+                return touches;
+            }
+            let mut signs = [[Sign::Zero; MOST_CORNERS]; MOST_ROOTS];
+            for (i, n) in self.functions[..self.normals].iter().skip(k).step_by(coordinates).enumerate() {
+                for (row, sign) in signs.iter_mut().zip(roots.signs(n, arena)) {
+                    row[i] = sign;
+                }
+            }
+            for (r, row) in signs.iter().enumerate().filter(|(_, row)| row.iter().any(|s| !s.is_zero())) {
+                touches[r] |= !settled[r] && !has_opposites(row.iter());
+                settled[r] = true;
+            }
         }
-        ContactTimes::Finite(count)
+        if settled != [true; MOST_ROOTS] {
+            // Corners that are the origin, or on two sides of it.
+            let mut zero = [[true; MOST_CORNERS]; MOST_ROOTS];
+            for k in 0..self.dimension {
+                let mut signs = [[Sign::Zero; MOST_CORNERS]; MOST_ROOTS];
+                let corners = self.functions[self.normals..self.count].iter().skip(k).step_by(self.dimension);
+                for (i, coordinate) in corners.enumerate() {
+                    for (r, sign) in roots.signs(coordinate, arena).into_iter().enumerate() {
+                        signs[r][i] = sign;
+                        zero[r][i] &= sign.is_zero();
+                    }
+                }
+                for r in (0..MOST_ROOTS).filter(|&r| !settled[r]) {
+                    touches[r] |= has_opposites(signs[r].iter());
+                }
+            }
+            for r in (0..MOST_ROOTS).filter(|&r| !settled[r]) {
+                touches[r] |= zero[r][..self.corners].contains(&true);
+            }
+        }
+        touches
     }
 
     /// The contact times of a motion that stays in a plane through the origin (or on a line, in the plane), given
