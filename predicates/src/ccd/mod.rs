@@ -29,6 +29,7 @@
 //! is told by [`staged`].
 
 mod at_root;
+pub mod batch;
 mod corners;
 mod decide;
 mod exact;

@@ -229,17 +229,19 @@ pub fn vertex_segment_2d_times(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -
 /// A fresh array, made where the fast path is left: passing the first one on would keep the coordinates of the fast path in
 /// memory instead of registers.
 #[inline(always)]
-fn copied(places: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
+pub(super) fn copied(places: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
     core::array::from_fn(|i| core::array::from_fn(|k| places[i][k]))
 }
 
+/// What [`culled`] leaves of a query.
 #[inline(never)]
-fn settle_vertex_face(step: Step, interval: [f64; 2]) -> (bool, Stage) {
+pub(super) fn settle_vertex_face(step: Step, interval: [f64; 2]) -> (bool, Stage) {
     of_vertex_face(&step).settle(interval)
 }
 
+/// What [`culled`] leaves of a query.
 #[inline(never)]
-fn settle_edge_edge(step: Step, interval: [f64; 2]) -> (bool, Stage) {
+pub(super) fn settle_edge_edge(step: Step, interval: [f64; 2]) -> (bool, Stage) {
     of_edge_edge(&step).settle(interval)
 }
 

@@ -33,24 +33,33 @@ impl<const K: usize> Corners<f64, K> {
                 high = if s < high { high } else { s };
             }
         }
-        low > bound || high < -bound
+        (low > bound) | (high < -bound)
     }
 
-    /// True when the normal of the polygon at the beginning of the step separates, or the direction to the centre: these are
-    /// the likeliest, and nine in ten separations are found by them.
+    /// True when the normal of the polygon at the beginning of the step separates. Together with the direction to the centre it
+    /// finds nine in ten separations.
     #[inline(always)]
-    pub(super) fn separated_by_likeliest(&self) -> bool {
-        if self.separated_by(self.normal(0)) {
-            return true;
-        }
+    pub(super) fn separated_by_first_normal(&self) -> bool {
+        self.separated_by(self.normal(0))
+    }
+
+    /// True when the direction to the centre separates.
+    #[inline(always)]
+    pub(super) fn separated_by_centre(&self) -> bool {
+        self.separated_by(self.centre())
+    }
+
+    /// The sum of all corners.
+    #[inline(always)]
+    fn centre(&self) -> [f64; 3] {
         let [p, q] = &self.ends;
         let mut centre = [0.0; 3];
-        for k in 0..3 {
+        for (sum, (p, q)) in centre.iter_mut().zip(p.iter().zip(q)) {
             for i in 0..K {
-                centre[k] += p[k][i] + q[k][i];
+                *sum += p[i] + q[i];
             }
         }
-        self.separated_by(centre)
+        centre
     }
 
     /// The normal of the polygon at one end of the step.

@@ -23,13 +23,14 @@ pub(super) fn culled<const K: usize>(
     if boxes_apart::<K>(t0, t1) {
         return Some(Stage::Boxes);
     }
-    Corners::new([t0, t1], corners, None).separated_by_likeliest().then_some(Stage::Direction)
+    let corners = Corners::new([t0, t1], corners, None);
+    (corners.separated_by_first_normal() || corners.separated_by_centre()).then_some(Stage::Direction)
 }
 
 /// True when, along some axis, all corners are strictly on one side of the origin at both ends of the step, and so
 /// throughout. Compares coordinates; nothing is rounded.
 #[inline(always)]
-fn boxes_apart<const K: usize>(t0: &[[f64; 3]; 4], t1: &[[f64; 3]; 4]) -> bool {
+pub(super) fn boxes_apart<const K: usize>(t0: &[[f64; 3]; 4], t1: &[[f64; 3]; 4]) -> bool {
     let mut apart = false;
     for k in 0..3 {
         // The corners are all differences of one of the first points and one of the others.
