@@ -5,6 +5,7 @@
 
 mod ccd;
 mod ccd_batch;
+mod ccd_oracle;
 mod family;
 mod intersection;
 mod laws;

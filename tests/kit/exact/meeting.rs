@@ -70,6 +70,12 @@ pub fn meeting<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> Meeting {
     enumerate::<D>(&points(lifted), &points(second))
 }
 
+/// The intersection of the hulls of two sets of points with integer coordinates; as [`meeting`].
+#[must_use]
+pub fn meeting_of_integers<const D: usize>(a: Vec<[Integer; D]>, b: Vec<[Integer; D]>) -> Meeting {
+    enumerate::<D>(&points(a), &points(b))
+}
+
 /// The intersection of the ray from `origin` along the vector `direction` with the hull of `b`.
 ///
 /// Of the first set, bit 0 is the origin and bit 1 the direction: `face_a() == 1` says that only the origin meets `b`.

@@ -1,6 +1,7 @@
 //! Exact oracles on unbounded integers.
 
 mod clip;
+pub mod collision;
 mod determinant;
 mod lift;
 pub mod linear;
@@ -11,6 +12,6 @@ mod self_intersection;
 pub use clip::clip_to_box;
 pub use determinant::determinant;
 pub use lift::lift;
-pub use meeting::{Corner, Meeting, meeting, meeting_of_ray, meeting_of_ray_through};
+pub use meeting::{Corner, Meeting, meeting, meeting_of_integers, meeting_of_ray, meeting_of_ray_through};
 pub use orient::{in_sphere, in_sphere_value, orient, orient_value};
 pub use self_intersection::self_intersections;

@@ -3,11 +3,16 @@
 //! The targets in `fuzz/` call these under libFuzzer. The tests below run the same bodies on a fixed byte stream and on
 //! the inputs stored in `tests/kit/corpus/<body>/`, which holds what a fuzzer once found and seeds worth starting from.
 
+mod collisions;
 mod determinants;
 mod intersections;
 mod meshes;
 mod perturbation;
 
+pub use collisions::{
+    check_edge_edge, check_vertex_face, check_vertex_segment, edge_edge_collisions, vertex_face_collisions,
+    vertex_segment_collisions,
+};
 pub use determinants::{in_spheres, orientations};
 pub use intersections::{boxes, simplices};
 pub use meshes::{read_obj, read_off, read_ply, read_stl, self_intersecting};
@@ -19,6 +24,7 @@ pub type Body = fn(&[u8]);
 /// Every body with its name, which is also the name of its fuzz target and of its corpus folder.
 pub const BODIES: &[(&str, Body)] = &[
     ("boxes", boxes),
+    ("edge_edge_collisions", edge_edge_collisions),
     ("in_spheres", in_spheres),
     ("orientations", orientations),
     ("perturbed", perturbed),
@@ -28,6 +34,8 @@ pub const BODIES: &[(&str, Body)] = &[
     ("read_stl", read_stl),
     ("self_intersecting", self_intersecting),
     ("simplices", simplices),
+    ("vertex_face_collisions", vertex_face_collisions),
+    ("vertex_segment_collisions", vertex_segment_collisions),
 ];
 
 #[cfg(test)]
