@@ -82,13 +82,13 @@ impl System {
         self.minor(all, all).clone()
     }
 
-    /// All minors that are not constant, up to constant positive factors, each once.
+    /// All minors that are not constant, up to constant factors, each once.
     pub(super) fn all_minors(&mut self) -> Vec<Polynomial> {
         let all = 1_u32 << self.size();
         let mut found = Vec::new();
         for rows in 1..all {
             for columns in (1..all).filter(|columns| columns.count_ones() == rows.count_ones()) {
-                found.push(self.minor(rows, columns).clone().primitive());
+                found.push(self.minor(rows, columns).clone().normal());
             }
         }
         found.retain(|p| p.degree() > Some(0));

@@ -98,6 +98,9 @@ impl Time {
 
     /// The order of two numbers.
     pub(super) fn order(&mut self, other: &mut Self) -> Ordering {
+        if let (Self::Rational(a), Self::Rational(b)) = (&*self, &*other) {
+            return a.cmp(b);
+        }
         if self.equals(other) {
             return Ordering::Equal;
         }
@@ -170,19 +173,18 @@ pub(super) fn roots(p: &Polynomial) -> Vec<Time> {
 /// Numbers in ascending order, each once.
 pub(super) fn sorted(times: Vec<Time>) -> Vec<Time> {
     let mut all: Vec<Time> = Vec::new();
-    for mut time in times {
-        let mut place = all.len();
-        let mut order = Ordering::Less;
-        while place > 0 {
-            order = all[place - 1].order(&mut time);
-            if order.is_le() {
-                break;
+    'next: for mut time in times {
+        // All before `low` are less, all from `high` on are greater.
+        let (mut low, mut high) = (0, all.len());
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            match all[middle].order(&mut time) {
+                Ordering::Less => low = middle + 1,
+                Ordering::Equal => continue 'next,
+                Ordering::Greater => high = middle,
             }
-            place -= 1;
         }
-        if place == 0 || order.is_ne() {
-            all.insert(place, time);
-        }
+        all.insert(low, time);
     }
     all
 }
