@@ -50,11 +50,13 @@ fn stationary<const D: usize>(columns: &[[Integer; D]], chosen: &[usize], first:
     if weights.iter().any(|w| w.cmp0() == denominator.cmp0().reverse()) {
         return None;
     }
-    let mut square = Integer::new();
-    for axis in 0..D {
-        let terms = chosen.iter().zip(weights).map(|(&i, w)| Integer::from(w * &columns[i][axis]));
-        square += terms.fold(Integer::new(), |sum, term| sum + term).square();
+    let mut difference = [(); D].map(|()| Integer::new());
+    for (&i, weight) in chosen.iter().zip(weights) {
+        for (sum, x) in difference.iter_mut().zip(&columns[i]) {
+            *sum += weight * x;
+        }
     }
+    let square = difference.into_iter().fold(Integer::new(), |sum, x| sum + x.square());
     Some(Rational::from((square, denominator.square())))
 }
 

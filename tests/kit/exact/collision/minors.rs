@@ -125,7 +125,7 @@ impl System {
             // The target stands in the last place, not in that of the column which it replaces.
             let moved = (support >> (column + 1)).count_ones();
             let numerator = time.sign(self.minor(rows, support & !(1 << column) | target));
-            let numerator = if moved % 2 == 0 { numerator } else { numerator.reverse() };
+            let numerator = if moved.is_multiple_of(2) { numerator } else { numerator.reverse() };
             numerator == sign
         });
         weights_are_positive
