@@ -221,6 +221,6 @@ mod tests {
         let variations = |cell: i32, bits| p.variations(&Integer::from(cell), bits).0;
         assert_eq!([variations(0, 0), variations(0, 1), variations(1, 1), variations(3, 1)], [2, 1, 0, 0]);
         // The values at both ends are the outer Bernstein coefficients, exactly.
-        assert_eq!(p.bernstein(&Integer::from(1), 1), [0, -6, -28, -16].map(|c| Integer::from(c)).to_vec());
+        assert_eq!(p.bernstein(&Integer::from(1), 1), [0, -6, -28, -16].map(Integer::from).to_vec());
     }
 }
