@@ -100,7 +100,8 @@ impl<const K: usize, E: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Q
     /// The contact times, after [`culled`] has said nothing.
     pub(super) fn contact_times(&self) -> ContactTimes {
         let corners = self.rounded::<f64>(None);
-        if corners.separated_otherwise() || !self.is_finite() {
+        let clear = || corners.in_range() && corners.examine(STEP, MOST_INTERVALS).excludes_contact();
+        if corners.separated_otherwise() || !self.is_finite() || clear() {
             return ContactTimes::Finite(0);
         }
         (self.exact)(STEP, Ask::Count, plane_of(corners.maxima.map(|m| m == 0.0)))

@@ -56,6 +56,13 @@ pub(super) enum Verdict {
     Open,
 }
 
+impl Verdict {
+    /// True when it is certain that there is no contact.
+    pub(super) fn excludes_contact(&self) -> bool {
+        matches!(self, Self::Decided(false))
+    }
+}
+
 /// Examines a bracket or shrinks it no further.
 enum Shrunk {
     Contact,
