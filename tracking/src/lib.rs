@@ -8,6 +8,9 @@
 //! * A step that cannot be completed returns a typed error and leaves the mesh as it was.
 //!
 //! # What it holds today
-//! Nothing: the crate marks its place in the dependency direction predicates -> meshing -> tracking -> fluids.
+//! [`queries`], the reader of continuous collision queries with known answers. Else the crate marks its place in the
+//! dependency direction predicates -> meshing -> tracking -> fluids.
 
 #![forbid(unsafe_code)]
+
+pub mod queries;
