@@ -58,6 +58,8 @@ codes! {
         "the original would be lost";
     StandardOutputTaken = "W2006", 2, "standard output is asked for twice",
         "with --json standard output holds exactly one JSON object";
+    UnknownQueryKind = "W2007", 2, "kind of the queries unknown",
+        "the rows of an edge-edge query and of a vertex-face query look the same";
 
     IndexOutOfRange = "W3010", 3, "vertex index out of range",
         "a corner that does not exist has no position";
@@ -90,6 +92,8 @@ codes! {
     UnsupportedContent = "W4010", 4, "unsupported content",
         "the file is well formed but holds something that this version does not read";
     EmptySequence = "W4011", 4, "no file matches the pattern", "there is nothing to read";
+    NotRepresentable = "W4012", 4, "coordinate that is no f64",
+        "with a rounded coordinate the query is another one, whose answer may differ";
 
     OverMemory = "W6001", 6, "would pass the memory limit",
         "going on would end in swapping or in the system killing the process";
@@ -100,6 +104,11 @@ codes! {
     OutputExists = "W7003", 7, "output exists", "what is there now would be lost";
     WriteFailed = "W7004", 7, "writing failed", "the result is not whole; the unfinished file was removed";
     OutputIsDirectory = "W7005", 7, "output is a directory", "a file cannot take the place of a directory";
+
+    FalseAnswers = "W9001", 9, "answers differ from the known ones",
+        "an answer that differs from the known one is wrong, or the known one is";
+    NoKnownAnswers = "W9002", 9, "no known answers",
+        "an answer without a known one to compare with may be right or wrong";
 }
 
 #[cfg(test)]

@@ -77,16 +77,16 @@ impl Output {
                     Code::OutputIsDirectory,
                     "this is a directory, and a file is to be written",
                 )
-                .help(format!("-o {}", shell_word(&name.join("surface.ply")))));
+                .help(format!("name a file, which may be in it: {}/NAME", shell_word(name))));
             }
             Ok(now) if now.is_file() => {
                 if inputs.iter().any(|input| fs::canonicalize(input).is_ok_and(|input| input == target)) {
                     return Err(fail(Code::OutputIsInput, "this is the input too")
-                        .help("name another output with -o"));
+                        .help("name another output"));
                 }
                 if !force {
                     return Err(fail(Code::OutputExists, "this file exists already")
-                        .help("add --force to overwrite it, or name another output with -o"));
+                        .help("add --force to overwrite it, or name another output"));
                 }
                 if now.permissions().readonly() {
                     return Err(fail(Code::NotWritable, "this file is write-protected")
@@ -112,7 +112,7 @@ impl Output {
                 .help(format!("mkdir -p {}", shell_word(named))));
         }
         if target.file_name().is_none() {
-            return Err(fail(Code::NotWritable, "this names no file").help("name an output file with -o"));
+            return Err(fail(Code::NotWritable, "this names no file").help("name an output file"));
         }
         let mut known = unfinished();
         for attempt in 0..100 {
@@ -234,7 +234,7 @@ pub(crate) fn cannot_write(name: &Path, error: &io::Error) -> Box<Failure> {
     let (code, help) = match error.kind() {
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => (
             Code::NotWritable,
-            "name an output in a folder you can write, for example -o ~/out.ply".to_owned(),
+            "name an output in a folder you can write, for example in ~".to_owned(),
         ),
         ErrorKind::NotFound => {
             let folder = name.parent().unwrap_or(Path::new("."));
@@ -250,7 +250,7 @@ pub(crate) fn cannot_write(name: &Path, error: &io::Error) -> Box<Failure> {
                 format!("df -h {}   # then name an output on a disk with room", shell_word(folder)),
             )
         }
-        _ => (Code::WriteFailed, "name another output with -o".to_owned()),
+        _ => (Code::WriteFailed, "name another output".to_owned()),
     };
     Failure::new(code, format!("cannot be written: {}", plain(error)))
         .subject(name.display().to_string())

@@ -2,7 +2,7 @@
 
 use crate::args::{Cli, Command};
 use crate::codes::Code;
-use crate::commands::{check, completions, convert, demo, doctor, info, render, shape};
+use crate::commands::{ccd, check, completions, convert, demo, doctor, info, render, shape};
 use crate::console::{Console, print_error, write_json_once};
 use crate::failure::Failure;
 use crate::progress::Progress;
@@ -65,6 +65,7 @@ fn run(cli: Cli) -> Outcome {
     let outcome = match cli.command {
         Command::Demo(args) => demo::run(&args, &run),
         Command::Check(args) => check::run(&args, &run),
+        Command::Ccd(args) => ccd::run(&args, &run),
         Command::Render(args) => render::run(&args, &run),
         Command::Shape(args) => shape::run(&args, &run),
         Command::Convert(args) => convert::run(&args, &run),

@@ -1,5 +1,6 @@
 //! The commands, one a file.
 
+pub(crate) mod ccd;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod convert;
