@@ -81,8 +81,9 @@ impl Output {
             }
             Ok(now) if now.is_file() => {
                 if inputs.iter().any(|input| fs::canonicalize(input).is_ok_and(|input| input == target)) {
-                    return Err(fail(Code::OutputIsInput, "this is the input too")
-                        .help("name another output"));
+                    return Err(
+                        fail(Code::OutputIsInput, "this is the input too").help("name another output")
+                    );
                 }
                 if !force {
                     return Err(fail(Code::OutputExists, "this file exists already")
@@ -232,10 +233,9 @@ impl From<Box<Failure>> for WriteProblem {
 /// The failure for an error of the system on writing to `name`.
 pub(crate) fn cannot_write(name: &Path, error: &io::Error) -> Box<Failure> {
     let (code, help) = match error.kind() {
-        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => (
-            Code::NotWritable,
-            "name an output in a folder you can write, for example in ~".to_owned(),
-        ),
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            (Code::NotWritable, "name an output in a folder you can write, for example in ~".to_owned())
+        }
         ErrorKind::NotFound => {
             let folder = name.parent().unwrap_or(Path::new("."));
             (Code::FolderMissing, format!("mkdir -p {}", shell_word(folder)))

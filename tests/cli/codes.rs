@@ -3,8 +3,9 @@
 use crate::harness::Bench;
 
 /// Every source file of these tests: where codes are tried.
-const TESTS: [&str; 10] = [
+const TESTS: [&str; 11] = [
     include_str!("bad_input.rs"),
+    include_str!("ccd.rs"),
     include_str!("check.rs"),
     include_str!("convert.rs"),
     include_str!("demo.rs"),

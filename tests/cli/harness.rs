@@ -142,8 +142,15 @@ pub(crate) fn permissions_bind(bench: &Bench) -> bool {
     std::fs::remove_file(&path).unwrap();
     binds
 }
+
 /// The folder of real meshes, if it is there.
 pub(crate) fn real_meshes() -> Option<PathBuf> {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data/meshes"));
+    folder.is_dir().then(|| folder.to_owned())
+}
+
+/// The folder of public collision queries, if it is there.
+pub(crate) fn public_queries() -> Option<PathBuf> {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data/ccd-queries"));
     folder.is_dir().then(|| folder.to_owned())
 }

@@ -4,6 +4,7 @@
 #![allow(clippy::print_stdout, reason = "a test that cannot run here says so")]
 
 mod bad_input;
+mod ccd;
 mod check;
 mod codes;
 mod convert;

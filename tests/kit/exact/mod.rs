@@ -7,6 +7,7 @@ mod lift;
 pub mod linear;
 mod meeting;
 mod orient;
+mod rounding;
 mod self_intersection;
 
 pub use clip::clip_to_box;
@@ -14,4 +15,5 @@ pub use determinant::determinant;
 pub use lift::lift;
 pub use meeting::{Corner, Meeting, meeting, meeting_of_integers, meeting_of_ray, meeting_of_ray_through};
 pub use orient::{in_sphere, in_sphere_value, orient, orient_value};
+pub use rounding::nearest_f64;
 pub use self_intersection::self_intersections;

@@ -8,6 +8,7 @@ mod determinants;
 mod intersections;
 mod meshes;
 mod perturbation;
+mod queries;
 
 pub use collisions::{
     check_edge_edge, check_vertex_face, check_vertex_segment, edge_edge_collisions, vertex_face_collisions,
@@ -17,6 +18,7 @@ pub use determinants::{in_spheres, orientations};
 pub use intersections::{boxes, simplices};
 pub use meshes::{read_obj, read_off, read_ply, read_stl, self_intersecting};
 pub use perturbation::perturbed;
+pub use queries::read_queries;
 
 /// A fuzz body: takes any bytes, panics if something is wrong.
 pub type Body = fn(&[u8]);
@@ -31,6 +33,7 @@ pub const BODIES: &[(&str, Body)] = &[
     ("read_obj", read_obj),
     ("read_off", read_off),
     ("read_ply", read_ply),
+    ("read_queries", read_queries),
     ("read_stl", read_stl),
     ("self_intersecting", self_intersecting),
     ("simplices", simplices),

@@ -79,10 +79,7 @@ impl Source {
     }
 
     /// A reader of its queries.
-    pub(super) fn queries(
-        &self,
-        parameters: Parameters,
-    ) -> Result<Queries<Box<dyn BufRead>>, Box<Failure>> {
+    pub(super) fn queries(&self, parameters: Parameters) -> Result<Queries<Box<dyn BufRead>>, Box<Failure>> {
         let input: Box<dyn BufRead> = if self.name == Path::new(STANDARD) {
             Box::new(io::stdin().lock())
         } else {
@@ -101,8 +98,9 @@ pub(super) fn not_understood(source: &Source, error: &ReadError) -> Box<Failure>
     let (name, kind) = (&source.name, source.kind.name());
     let (shown, word) = (name.display().to_string(), shell_word(name));
     let again = "download it again, or write it again with the program it comes from";
-    let at_line =
-        |line: u64| format!("sed -n {line}p {word}   # shows the line; a row is 6 integers and the answer, 0 or 1");
+    let at_line = |line: u64| {
+        format!("sed -n {line}p {word}   # shows the line; a row is 6 integers and the answer, 0 or 1")
+    };
     let (code, help) = match error {
         ReadError::Empty => (Code::EmptyFile, format!("ls -l {word}   # then {again}")),
         ReadError::Truncated { .. } => (Code::Truncated, again.to_owned()),

@@ -43,7 +43,8 @@ query, each timed alone, the quickest of --repeat runs, with one reading of the 
 Culled: a direction keeps the primitives apart; filtered: rounded arithmetic with proven bounds; exact: the rest.
 
 Exit codes: 0 when every query was answered, even if falsely; 4 when a file cannot be read; 9 when a file lacks
-what --require asks for. With several files, the code of the first that failed; --answers is then not written.
+what --require asks for. With several files, the code of the first that failed. When a file cannot be read,
+--answers is not written.
 
 Examples:
   welter ccd benchmark/                             every *.csv in the folder and below it
