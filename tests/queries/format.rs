@@ -53,7 +53,7 @@ fn line_ends_blanks_and_a_byte_order_mark_change_nothing() {
         plain.trim_end().to_owned(),
         plain.replace('\n', "\r\n"),
         plain.replace(',', " ,\t"),
-        plain.replace("1,", "+001,"),
+        plain.replace(",1,", ",+001,"),
         format!("\u{feff}{plain}"),
         format!("{plain}\r\n\n  \n\t"),
     ];
@@ -81,10 +81,7 @@ fn every_fault_has_its_error() {
     fails(swap("3,2", "\u{663},2"), "line 2, column 3: expected an integer, found `\u{663}`");
     fails(swap("3,2", "\u{1b}[31m,2"), "line 2, column 3: expected an integer, found `\\u{1b}[31m`");
     fails(swap("3,2", "3,-0"), "line 2, column 4: the denominator is zero");
-    fails(
-        swap("0,1", "0,1").replacen("4,1\n", "4,true\n", 1),
-        "line 1, column 7: expected 0 or 1, found `true`",
-    );
+    fails(swap("4,1\n", "4,true\n"), "line 1, column 7: expected 0 or 1, found `true`");
     fails(rows(",01"), "line 1, column 7: expected 0 or 1, found `01`");
     fails(
         rows(",1") + &rows(",0").replacen("13,4,0", "13,4,1", 1),
@@ -92,7 +89,7 @@ fn every_fault_has_its_error() {
     );
     fails(good.replacen('\n', "\n\n\n", 1), "line 2: the line is blank, and rows follow");
     fails(
-        format!("{good}{}", swap("", "").lines().next().unwrap()),
+        format!("{good}{}", good.lines().next().unwrap()),
         "line 9: the file ends here, after 1 of 8 rows of a query",
     );
     fails(

@@ -86,7 +86,7 @@ impl<R: BufRead> Queries<R> {
     fn query(&mut self) -> Result<Option<Query>, ReadError> {
         let mut points = [[0.0; 3]; ROWS];
         let (mut first_line, mut truth) = (0, None);
-        for rows in 0..ROWS {
+        for (rows, point) in points.iter_mut().enumerate() {
             let last = self.line;
             let Some(row) = self.row()? else {
                 return match (rows, self.columns) {
@@ -100,7 +100,7 @@ impl<R: BufRead> Queries<R> {
             } else if row.truth != truth {
                 return Err(ReadError::TruthDiffers { line: self.line, first_line });
             }
-            points[rows] = row.point;
+            *point = row.point;
         }
         let [a, b, c, d, e, f, g, h] = points;
         Ok(Some(Query { t0: [a, b, c, d], t1: [e, f, g, h], truth, line: first_line }))
