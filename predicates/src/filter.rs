@@ -124,13 +124,13 @@ pub(crate) fn insphere(rows: &[[f64; 3]; 4]) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
-    use crate::polynomial::{self, Additive, Ring, Times};
+    use crate::polynomial::{self, Additive, Ring, SixthDegree, Times};
 
     /// A polynomial in u with natural coefficients.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    struct Poly([u128; 40]);
+    pub(crate) struct Poly([u128; 40]);
 
     impl Poly {
         fn u() -> Self {
@@ -154,13 +154,13 @@ mod tests {
 
     /// Magnitude, error and underflow count of a rounded number, as the module's head defines them.
     #[derive(Clone, Copy, Debug)]
-    struct Bound {
+    pub(crate) struct Bound {
         size: Poly,
         error: Poly,
         underflows: u128,
     }
 
-    struct Bounds;
+    pub(crate) struct Bounds;
 
     impl Ring for Bounds {
         type D1 = Bound;
@@ -169,6 +169,10 @@ mod tests {
         type D4 = Bound;
         type D5 = Bound;
         type Outcome = Bound;
+    }
+
+    impl SixthDegree for Bounds {
+        type D6 = Bound;
     }
 
     impl Additive for Bound {
@@ -204,7 +208,10 @@ mod tests {
         }
     }
 
-    const DIFFERENCE: Bound = Bound {
+    /// A number without error, of magnitude 1.
+    pub(crate) const EXACT: Bound = Bound { error: Poly([0; 40]), ..DIFFERENCE };
+
+    pub(crate) const DIFFERENCE: Bound = Bound {
         size: Poly({
             let mut p = [0; 40];
             p[0] = 1;
@@ -219,7 +226,7 @@ mod tests {
     };
 
     /// The constant covers the error, the sizes cover the magnitude, the underflow term covers the count.
-    fn check(bound: Bound, first_order: u128, constant: f64, size: f64) {
+    pub(crate) fn check(bound: Bound, first_order: u128, constant: f64, size: f64) {
         assert_eq!(bound.error.0[0], 0);
         assert_eq!(bound.error.0[1], first_order);
         // Orders from the second on: below u/4 even if each were multiplied by u^2 only.

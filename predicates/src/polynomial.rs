@@ -78,6 +78,12 @@ pub(crate) fn orient2d<K: Ring>([a, b]: &[[K::D1; 2]; 2]) -> K::D2 {
 /// The determinant of three rows, expanded along the last column.
 #[inline(always)]
 pub(crate) fn orient3d<K: Ring>([a, b, c]: &[[K::D1; 3]; 3]) -> K::D3 {
+    determinant3::<K>(a, b, c)
+}
+
+/// [`orient3d`] of rows that lie apart.
+#[inline(always)]
+pub(crate) fn determinant3<K: Ring>(a: &[K::D1; 3], b: &[K::D1; 3], c: &[K::D1; 3]) -> K::D3 {
     let bc = minor2::<K>(&b[0], &b[1], &c[0], &c[1]);
     let ac = minor2::<K>(&a[0], &a[1], &c[0], &c[1]);
     let ab = minor2::<K>(&a[0], &a[1], &b[0], &b[1]);
@@ -123,8 +129,27 @@ pub(crate) fn insphere<K: Ring>([a, b, c, d]: &[[K::D1; 3]; 4]) -> K::D5 {
     cd_terms.plus(&ab_terms)
 }
 
+/// A ring with the products of two values of degree 3.
+pub(crate) trait SixthDegree: Ring<D3: Times<Self::D3, Product = Self::D6>> {
+    type D6: Additive;
+}
+
+/// On which side of the bilinear patch with the corners `a`, `b`, `c`, `d` the origin is, `d` being opposite to `a`: the
+/// product of the determinants of the two triangles that share the diagonal `bc`, less that of the two that share `ad`
+/// \[Brochu12\].
+#[inline(always)]
+pub(crate) fn patch_side<K: SixthDegree>([a, b, c, d]: [&[K::D1; 3]; 4]) -> K::D6 {
+    let across_bc = determinant3::<K>(a, b, c).times(&determinant3::<K>(b, d, c));
+    let across_ad = determinant3::<K>(a, b, d).times(&determinant3::<K>(a, d, c));
+    across_bc.minus(&across_ad)
+}
+
 /// Rounded evaluation in `f64`.
 pub(crate) struct Rounded;
+
+impl SixthDegree for Rounded {
+    type D6 = f64;
+}
 
 impl Ring for Rounded {
     type D1 = f64;

@@ -10,6 +10,7 @@ mod family;
 mod intersection;
 mod laws;
 mod oracle;
+mod parity;
 mod perturbation;
 mod rates;
 mod regressions;

@@ -7,8 +7,9 @@
 //! * [`Integer<L>`] is a sign and a magnitude of at most `L` 64-bit limbs; only the used limbs cost time.
 //! * [`Unit`] is the common unit of a set of coordinates.
 
-use super::scaled::Scaled;
-use crate::polynomial::{Additive, Ring, Times};
+use super::scaled::{Exact, Scaled};
+use crate::Sign;
+use crate::polynomial::{Additive, Ring, SixthDegree, Times};
 
 /// Limbs of a coordinate or of a difference of two: 2099 bits in 33 limbs of 64 (2112 bits).
 pub(crate) const COORDINATE_LIMBS: usize = 33;
@@ -235,6 +236,24 @@ products! {
     1 * 2;
     2 * 2;
     2 * 3;
+    3 * 3;
+}
+
+impl SixthDegree for Integers {
+    type D6 = Integer<{ 6 * COORDINATE_LIMBS }>;
+}
+
+impl<const L: usize> Exact for Integer<L> {
+    fn sign(&self) -> Sign {
+        match (self.len, self.negative) {
+            (0, _) => Sign::Zero,
+            (_, true) => Sign::Negative,
+            (_, false) => Sign::Positive,
+        }
+    }
+    fn scaled(&self) -> Scaled {
+        Integer::scaled(self)
+    }
 }
 
 /// The differences of the first points to the last one as numbers of units, and the exponent of the unit.

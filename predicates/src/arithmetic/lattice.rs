@@ -7,12 +7,12 @@
 //!
 //! Differences are below 2^62. A minor of two rows is below 2^125 and a sum of three squares below 2^126 (`i128`),
 //! a minor of three rows below 2^189 ([`Wide`] of 3 words), the sums of degree 4 and 5 below 2^253 and 2^317
-//! (4 and 5 words). The tests recompute these sizes with the polynomials themselves.
+//! (4 and 5 words), the difference of two products of degree 3 below 2^379 (6 words). The tests recompute these sizes with the polynomials themselves.
 
 use super::scaled::{Exact, Scaled, power_of_two};
 use super::wide::Wide;
 use crate::Sign;
-use crate::polynomial::{Additive, Ring, Times};
+use crate::polynomial::{Additive, Ring, SixthDegree, Times};
 
 /// Coordinates are scaled to magnitudes below `2^WINDOW`, and must then be integers.
 const WINDOW: i32 = 61;
@@ -177,6 +177,18 @@ impl Times<Wide<3>> for i128 {
     }
 }
 
+impl SixthDegree for Words {
+    type D6 = Wide<6>;
+}
+
+impl Times<Wide<3>> for Wide<3> {
+    type Product = Wide<6>;
+    #[inline(always)]
+    fn times(&self, other: &Wide<3>) -> Wide<6> {
+        Wide::product(*self, *other)
+    }
+}
+
 impl From<i128> for Wide<5> {
     #[inline(always)]
     fn from(value: i128) -> Self {
@@ -198,7 +210,7 @@ impl From<Wide<4>> for Wide<5> {
     }
 }
 
-impl Exact for Wide<5> {
+impl<const L: usize> Exact for Wide<L> {
     #[inline(always)]
     fn sign(&self) -> Sign {
         Wide::sign(self)
@@ -224,6 +236,9 @@ mod tests {
         type D4 = Size;
         type D5 = Size;
         type Outcome = Size;
+    }
+    impl SixthDegree for Sizes {
+        type D6 = Size;
     }
     impl Additive for Size {
         fn plus(&self, other: &Self) -> Self {
@@ -251,6 +266,8 @@ mod tests {
         assert!(fits(polynomial::orient4d::<Sizes>(&differences()), 4, 4));
         assert!(fits(polynomial::incircle::<Sizes>(&differences()), 4, 4));
         assert!(fits(polynomial::insphere::<Sizes>(&differences()), 5, 5));
+        let [a, b, c, d] = &differences();
+        assert!(fits(polynomial::patch_side::<Sizes>([a, b, c, d]), 6, 6));
         // The sum of three squares.
         assert!(fits(Size(3.0), 2, 2));
     }

@@ -1,13 +1,14 @@
 //! Integers of one or two machine words: points of a coarse grid.
 //!
 //! When the coordinates are integers of at most 29 bits (23 for `insphere`) in some common unit, their differences
-//! have one bit more, a value of degree 1 or 2 fits an `i64` and one of degree 3 to 5 an `i128`.
+//! have one bit more, a value of degree 1 or 2 fits an `i64` and one of degree 3 to 5 an `i128`. The product of two
+//! of degree 3 is a [`Wide`] of 4 words.
 
 use super::lattice::{Extent, FINE};
 use super::scaled::{Exact, Scaled, power_of_two};
 use super::wide::Wide;
 use crate::Sign;
-use crate::polynomial::{Additive, Ring, Times};
+use crate::polynomial::{Additive, Ring, SixthDegree, Times};
 
 /// Degrees 1 and 2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,6 +114,18 @@ impl Times<Double> for Single<2> {
     #[inline(always)]
     fn times(&self, other: &Double) -> Double {
         Double(i128::from(self.0) * other.0)
+    }
+}
+
+impl SixthDegree for Small {
+    type D6 = Wide<4>;
+}
+
+impl Times<Double> for Double {
+    type Product = Wide<4>;
+    #[inline(always)]
+    fn times(&self, other: &Double) -> Wide<4> {
+        Wide::product(Wide::of_i128(self.0), Wide::of_i128(other.0))
     }
 }
 

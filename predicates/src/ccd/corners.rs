@@ -34,4 +34,9 @@ impl<T: Number, const K: usize> Corners<T, K> {
         }
         Self { ends, maxima }
     }
+
+    /// The corners at the beginning and at the end of the step, corner by corner.
+    pub(super) fn by_corner(&self) -> [[[T; 3]; K]; 2] {
+        [0, 1].map(|end| core::array::from_fn(|i| core::array::from_fn(|k| self.ends[end][k][i])))
+    }
 }

@@ -35,6 +35,7 @@ mod decide;
 mod exact;
 mod moment;
 mod number;
+pub mod parity;
 mod planar;
 mod query;
 mod separation;

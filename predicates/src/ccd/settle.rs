@@ -113,7 +113,7 @@ impl<const K: usize, E: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Q
     }
 
     fn is_finite(&self) -> bool {
-        self.step.as_flattened().as_flattened().iter().all(|x| x.is_finite())
+        is_finite(self.step)
     }
 
     /// For coordinates that are zero throughout, or near the ends of the exponent range.
@@ -217,6 +217,11 @@ impl<const K: usize, E: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Q
             power_of_two((-exponent).clamp(-1000, 1000))
         })
     }
+}
+
+/// True when all coordinates are finite.
+pub(super) fn is_finite(step: &Step) -> bool {
+    step.as_flattened().as_flattened().iter().all(|x| x.is_finite())
 }
 
 /// The axes of the coordinate plane in which all motion is, given which coordinates are zero throughout; none if it is not, or
