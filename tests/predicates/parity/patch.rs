@@ -1,1 +1,272 @@
+//! A ray and a bilinear patch against the equations of the patch, solved in rational numbers and square roots of these.
 
+use super::quadratic::{Field, Quadratic, Surd, roots};
+use super::{Random, mixed, on_grid};
+use rug::Rational;
+use welter_predicates::ccd::parity::PatchParity::{Even, Odd, OnPatch};
+use welter_predicates::ccd::parity::{PatchParity, ray_bilinear_patch};
+
+type Vector = [Rational; 3];
+
+/// Coefficients of 1, s, t, s t.
+type Bilinear = [Rational; 4];
+
+fn bilinear([a, b, c, d]: [Rational; 4]) -> Bilinear {
+    let (s, t) = (Rational::from(&b - &a), Rational::from(&c - &a));
+    let st = d - &b - &t;
+    [a, s, t, st]
+}
+
+/// `(a0 + a1 s)(b0 + b1 s)`.
+fn product(a: [&Rational; 2], b: [&Rational; 2]) -> Quadratic {
+    let mixed = Rational::from(a[0] * b[1]) + Rational::from(a[1] * b[0]);
+    [Rational::from(a[0] * b[0]), mixed, Rational::from(a[1] * b[1])]
+}
+
+/// The equation for `s` where both bilinear functions vanish, which is without `t`.
+fn eliminate(f: &Bilinear, g: &Bilinear) -> Quadratic {
+    let first = product([&f[0], &f[1]], [&g[2], &g[3]]);
+    let second = product([&g[0], &g[1]], [&f[2], &f[3]]);
+    let [a, b, c] = first;
+    let [d, e, f] = second;
+    [a - d, b - e, c - f]
+}
+
+/// Whether the segment from `B(s, 0)` to `B(s, 1)` holds the origin.
+fn ruling_holds_origin(field: &Field, functions: &[Bilinear; 3], s: &Surd) -> bool {
+    let p = functions.each_ref().map(|f| field.linear([&f[0], &f[1]], s));
+    let q: [Surd; 3] =
+        std::array::from_fn(|k| field.add(&p[k], &field.linear([&functions[k][2], &functions[k][3]], s)));
+    let sign = |x: &Surd| field.sign(x) as i32;
+    let parallel = [[0, 1], [1, 2], [2, 0]].iter().all(|&[i, j]| {
+        let minor = field.subtract(&field.multiply(&p[i], &q[j]), &field.multiply(&p[j], &q[i]));
+        sign(&minor) == 0
+    });
+    parallel && (0..3).all(|k| sign(&p[k]) * sign(&q[k]) <= 0)
+}
+
+/// Whether the origin is on the patch. The `s` for which the segment from `B(s, 0)` to `B(s, 1)` holds it are a closed set,
+/// which begins at 0, or where a coordinate of an end or of the ends' cross product is zero.
+fn holds_origin(functions: &[Bilinear; 3]) -> bool {
+    let fixed = Field::rationals();
+    if [0, 1].iter().any(|&s| ruling_holds_origin(&fixed, functions, &Surd::rational(Rational::from(s)))) {
+        return true;
+    }
+    let mut equations = Vec::new();
+    for k in 0..3 {
+        let f = &functions[k];
+        equations.push(eliminate(f, &functions[(k + 1) % 3]));
+        equations.push([f[0].clone(), f[1].clone(), Rational::new()]);
+        equations.push([Rational::from(&f[0] + &f[2]), Rational::from(&f[1] + &f[3]), Rational::new()]);
+    }
+    equations.iter().flat_map(roots).any(|root| ruling_holds_origin(&root.field, functions, &root.s))
+}
+
+/// How often the ray from the origin in this direction, which is in no special position, crosses the patch.
+fn crossings(functions: &[Bilinear; 3], direction: &Vector) -> u32 {
+    let k = (0..3).find(|&k| direction[k].cmp0().is_ne()).unwrap();
+    // Functions that vanish on the line of the ray.
+    let [f, g]: [Bilinear; 2] = [(k + 1) % 3, (k + 2) % 3].map(|i| {
+        std::array::from_fn(|c| {
+            Rational::from(&direction[k] * &functions[i][c])
+                - Rational::from(&direction[i] * &functions[k][c])
+        })
+    });
+    let mut count = 0;
+    for root in roots(&eliminate(&f, &g)) {
+        let field = &root.field;
+        let linear = |h: &Bilinear, i: usize| field.linear([&h[i], &h[i + 1]], &root.s);
+        // t = -constant / slope, from one that determines it.
+        let Some(h) = [&f, &g].into_iter().find(|h| field.sign(&linear(h, 2)).is_ne()) else { continue };
+        let (constant, slope) = (linear(h, 0), linear(h, 2));
+        let sign = |x: &Surd| field.sign(x) as i32;
+        let inside =
+            sign(&constant) * sign(&slope) < 0 && sign(&field.add(&constant, &slope)) * sign(&slope) > 0;
+        // The coordinate along the ray, times the slope.
+        let along = field.subtract(
+            &field.multiply(&linear(&functions[k], 0), &slope),
+            &field.multiply(&linear(&functions[k], 2), &constant),
+        );
+        let ahead = sign(&along) * sign(&slope) * (direction[k].cmp0() as i32) > 0;
+        if inside && ahead {
+            count += root.multiplicity;
+        }
+    }
+    count
+}
+
+/// The answer for the direction `R + (e, e^2, e^3)` with `e = 2^-power`.
+fn oracle(origin: [f64; 3], direction: [f64; 3], patch: [[f64; 3]; 4], power: u32) -> PatchParity {
+    let exact = |x: f64| Rational::from_f64(x).unwrap();
+    let functions: [Bilinear; 3] =
+        std::array::from_fn(|k| bilinear(patch.map(|p| exact(p[k]) - exact(origin[k]))));
+    if holds_origin(&functions) {
+        return OnPatch;
+    }
+    let direction =
+        std::array::from_fn(|k| exact(direction[k]) + (Rational::from(1) >> (power * (k as u32 + 1))));
+    if crossings(&functions, &direction) % 2 == 1 { Odd } else { Even }
+}
+
+/// All names of the corners that leave the patch as it is.
+const SYMMETRIES: [[usize; 4]; 8] = [
+    [0, 1, 2, 3],
+    [1, 0, 3, 2],
+    [2, 3, 0, 1],
+    [3, 2, 1, 0],
+    [0, 2, 1, 3],
+    [2, 0, 3, 1],
+    [1, 3, 0, 2],
+    [3, 1, 2, 0],
+];
+
+fn lawful(origin: [f64; 3], direction: [f64; 3], patch: [[f64; 3]; 4]) -> PatchParity {
+    let expected = ray_bilinear_patch(origin, direction, patch);
+    for names in SYMMETRIES {
+        let renamed = names.map(|i| patch[i]);
+        assert_eq!(
+            ray_bilinear_patch(origin, direction, renamed),
+            expected,
+            "{origin:?} {direction:?} {patch:?}"
+        );
+    }
+    expected
+}
+
+fn compare(
+    seed: u64,
+    rounds: usize,
+    power: u32,
+    mut input: impl FnMut(&mut Random) -> [[f64; 3]; 6],
+) -> [u32; 3] {
+    let mut random = Random(seed);
+    let mut counts = [0; 3];
+    for _ in 0..rounds {
+        let [origin, direction, a, b, c, d] = input(&mut random);
+        let parity = lawful(origin, direction, [a, b, c, d]);
+        assert_eq!(
+            parity,
+            oracle(origin, direction, [a, b, c, d], power),
+            "{origin:?} {direction:?} {:?}",
+            [a, b, c, d]
+        );
+        counts[parity as usize] += 1;
+    }
+    counts
+}
+
+/// Some corners, and the end of the ray, in the places of others.
+fn with_coincidences(random: &mut Random, mut points: [[f64; 3]; 6]) -> [[f64; 3]; 6] {
+    if random.below(4) == 0 {
+        points[2 + random.below(4) as usize] = points[2 + random.below(4) as usize];
+    }
+    match random.below(6) {
+        // Along a coordinate, or nowhere.
+        0 => points[1] = std::array::from_fn(|k| if k as u64 == random.below(4) { 1.0 } else { 0.0 }),
+        // Through a corner.
+        1 => points[1] = std::array::from_fn(|k| points[2][k] - points[0][k]),
+        _ => {}
+    }
+    points
+}
+
+/// Queries of each kind in a run of the tests.
+const ROUNDS: usize = 20_000;
+
+fn compare_all(rounds: usize) {
+    for size in [1, 2, 4] {
+        // All minors are integers below 2^12, so 2^-40 is as good as infinitesimal.
+        let counts = compare(size, rounds, 40, |random| {
+            let points = on_grid(random, size);
+            with_coincidences(random, points)
+        });
+        println!("grid {size}: OnPatch, Odd, Even {counts:?}");
+        assert!(counts.iter().all(|&count| count as usize > rounds / 100));
+    }
+    let counts = compare(4, rounds, 400, |random| random.points(Random::uniform));
+    println!("uniform: {counts:?}");
+    assert!(counts[1] as usize > rounds / 100);
+    // Numbers are multiples of 2^-1074 below 2^1024: minors of three are 2^-3222 or more, or zero.
+    let counts = compare(5, rounds / 50, 6500, |random| {
+        let points = mixed(random);
+        if random.below(2) == 0 { with_coincidences(random, points) } else { points }
+    });
+    println!("mixed exponents: {counts:?}");
+}
+
+#[test]
+fn agrees_with_the_solved_equations() {
+    compare_all(ROUNDS);
+}
+
+#[test]
+#[ignore = "minutes in release mode"]
+fn agrees_with_the_solved_equations_a_million_times() {
+    compare_all(1_000_000);
+}
+
+/// The saddle z = x y.
+const SADDLE: [[f64; 3]; 4] = [[-1.0, -1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [1.0, 1.0, 1.0]];
+
+#[test]
+fn rays_and_a_saddle() {
+    let ask = |origin, direction| lawful(origin, direction, SADDLE);
+    for scale in [1.0, 2f64.powi(1000), 2f64.powi(-1000), f64::from_bits(1)] {
+        let up = [0.0, 0.0, scale];
+        assert_eq!(ask([0.5, 0.5, 0.25f64.next_down()], up), Odd);
+        assert_eq!(ask([0.5, 0.5, 0.25], up), OnPatch);
+        assert_eq!(ask([0.5, 0.5, 0.25f64.next_up()], up), Even);
+    }
+    // Along a ruling: the ray is (x, e^2 l, e^3 l) with l > 0, and meets z = x y at x = e. And from the ruling's end.
+    assert_eq!(ask([-2.0, 0.0, 0.0], [1.0, 0.0, 0.0]), Odd);
+    assert_eq!(ask([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]), OnPatch);
+    // Through the saddle from one side to the same one: it crosses twice.
+    assert_eq!(ask([2.0, 2.0, 0.25], [-1.0, -1.0, 0.0]), Even);
+    // It touches in one point.
+    assert_eq!(ask([1.5, 1.5, 0.0], [-1.0, -1.0, 0.0]), Even);
+    // It leaves from between the two places.
+    assert_eq!(ask([0.0, 0.0, 0.25], [1.0, 1.0, 0.0]), Odd);
+    // Through a corner, from both sides, and from the corner.
+    assert_eq!(ask([1.0, 1.0, 1.0], [1.0, 0.0, 0.0]), OnPatch);
+    assert_eq!(ask([1.0, 1.0, 0.0], [0.0, 0.0, 1.0]), Even);
+    assert_eq!(ask([-1.0, -1.0, 0.0], [0.0, 0.0, 1.0]), Odd);
+}
+
+#[test]
+fn flat_and_shrunk_patches() {
+    let square = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+    let up = [0.0, 0.0, 1.0];
+    assert_eq!(lawful([0.0, 0.0, -1.0], up, square), Odd);
+    assert_eq!(lawful([0.0, 0.0, 0.0], up, square), OnPatch);
+    assert_eq!(lawful([2.0, 0.0, 0.0], [-1.0, 0.0, 0.0], square), Even);
+    assert_eq!(lawful([0.0, 0.0, -1.0], [0.0; 3], square), Even);
+    // Edges cross: two triangles that meet in the origin.
+    let bow = [square[0], square[1], square[3], square[2]];
+    assert_eq!(lawful([0.0, 0.5, 0.0], up, bow), OnPatch);
+    assert_eq!(lawful([0.5, 0.0, 0.0], up, bow), Even);
+    assert_eq!(lawful([0.5, 0.0, -1.0], up, bow), Even);
+    assert_eq!(lawful([0.25, 0.5, -1.0], up, bow), Odd);
+    // Folded: beyond the corner c of the boundary the surface lies in two layers.
+    let [a, b, c, d] = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [1.0, 1.0, 0.0]];
+    assert_eq!(lawful([1.125, 1.125, 0.0], up, [a, b, c, d]), OnPatch);
+    assert_eq!(lawful([1.125, 1.125, -1.0], up, [a, b, c, d]), Even);
+    assert_eq!(lawful([1.5, 1.5, 0.0], up, [a, b, c, d]), Even);
+    // A segment and a point.
+    assert_eq!(lawful([1.0, 0.0, 0.0], up, [a, b, a, b]), OnPatch);
+    assert_eq!(lawful([1.0, 0.0, -1.0], up, [a, b, a, b]), Even);
+    assert_eq!(lawful([5.0, 0.0, 0.0], up, [a, b, a, b]), Even);
+    assert_eq!(lawful(d, up, [d; 4]), OnPatch);
+    assert_eq!(lawful(a, d, [d; 4]), Even);
+}
+
+#[test]
+fn even_for_what_is_not_finite() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for place in 0..18 {
+            let mut points = [[0.5, 0.5, 0.0], [0.0, 0.0, 1.0], SADDLE[0], SADDLE[1], SADDLE[2], SADDLE[3]];
+            points.as_flattened_mut()[place] = bad;
+            let [origin, direction, a, b, c, d] = points;
+            assert_eq!(ray_bilinear_patch(origin, direction, [a, b, c, d]), Even, "{points:?}");
+        }
+    }
+}

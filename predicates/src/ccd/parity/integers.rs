@@ -48,7 +48,7 @@ impl<const C: usize> Given<C> {
         parity.unwrap_or_else(|| self.in_any_bits(faces))
     }
 
-    fn in_few_bits(&self, faces: &[Face]) -> Option<Parity> {
+    pub(super) fn in_few_bits(&self, faces: &[Face]) -> Option<Parity> {
         let (points, extent) = raised(&self.points)?;
         let (_, points) = small::rows(&points, extent, DEGREE)?;
         let direction = match self.direction {
@@ -62,7 +62,7 @@ impl<const C: usize> Given<C> {
         surface(&Exactly::<Small, C>::new(self, &points, direction), faces)
     }
 
-    fn in_machine_words(&self, faces: &[Face]) -> Option<Parity> {
+    pub(super) fn in_machine_words(&self, faces: &[Face]) -> Option<Parity> {
         let (points, extent) = raised(&self.points)?;
         let points = Lattice::of(&points, extent)?.rows();
         let direction = match self.direction {
@@ -78,7 +78,7 @@ impl<const C: usize> Given<C> {
 
     #[cold]
     #[inline(never)]
-    fn in_any_bits(&self, faces: &[Face]) -> Parity {
+    pub(super) fn in_any_bits(&self, faces: &[Face]) -> Parity {
         let (_, points) = fixed_point::differences(&self.points);
         let direction = self.direction.map(|r| {
             let (_, [r]) = fixed_point::differences(&[r, [0.0; 3]]);

@@ -68,6 +68,8 @@ mod query;
 mod ray;
 mod rounded;
 mod surface;
+#[cfg(test)]
+mod tests;
 
 pub use planar::vertex_segment_2d;
 pub use query::{edge_edge, vertex_face};

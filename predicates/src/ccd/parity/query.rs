@@ -10,7 +10,7 @@ use super::surface::{Face, Parity};
 use crate::Point;
 
 /// The boundary of the prism over the triangle of corners 0, 1, 2 at the beginning and 3, 4, 5 at the end of the step.
-const PRISM: [Face; 5] = [
+pub(super) const PRISM: [Face; 5] = [
     Face::Patch([0, 1, 3, 4]),
     Face::Patch([1, 2, 4, 5]),
     Face::Patch([2, 0, 5, 3]),
@@ -19,7 +19,7 @@ const PRISM: [Face; 5] = [
 ];
 
 /// The boundary of the cube over the parallelogram of corners 0, 1, 2, 3 at the beginning and 4, 5, 6, 7 at the end.
-const CUBE: [Face; 6] = [
+pub(super) const CUBE: [Face; 6] = [
     Face::Patch([0, 1, 4, 5]),
     Face::Patch([1, 2, 5, 6]),
     Face::Patch([2, 3, 6, 7]),
@@ -70,7 +70,7 @@ pub fn edge_edge(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> RootParity {
 }
 
 /// The same corner at the end of the step, of the points at its beginning and its end together.
-fn later((i, j): (usize, usize)) -> (usize, usize) {
+pub(super) fn later((i, j): (usize, usize)) -> (usize, usize) {
     (i + 4, j + 4)
 }
 

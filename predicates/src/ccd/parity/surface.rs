@@ -50,10 +50,11 @@
 //! * *On triangles of both pairs.* Faces of a tetrahedron that belong to different pairs meet in an edge of the patch: all
 //!   must be in one plane.
 //!
-//! In one plane with all corners ([`flat_patch`]), the degree is zero and only the position of the origin is asked for. Off the diagonal
-//! of a pair it is on the patch if an odd number of the pair's triangles hold it, since the boundary then winds around it an odd number of
-//! times. Else the patch is taken as a segment that moves from `p0 p1` to `p2 p3`, and [`super::super::decide`] tells whether it ever holds the
-//! origin.
+//! In one plane with all corners, the degree is zero and only the position of the origin is asked for. Off the diagonal of a pair it is on
+//! the patch if an odd number of the pair's triangles hold it, since the boundary then winds around it an odd number of times. Else the patch
+//! is taken as a segment that moves from `p0 p1` to `p2 p3`. In units of the plane's normal, the cross product of its ends is a quadratic of
+//! time with the Bernstein coefficients `n_01`, `(n_03 + n_21) / 2`, `n_23`; if these have one strict sign ([`is_steady`]) the segment never holds
+//! the origin. So for the segment from `p0 p2` to `p1 p3`. What is left goes to [`super::super::decide`].
 //!
 //! If the origin is on the line of an edge but not on the edge, the edge's triangles are in one plane with the origin, and
 //! on them it is only if it is on another of their edges. The ray does not cross them.
@@ -183,23 +184,35 @@ fn patch(image: &impl Image, corners: [usize; 4]) -> Option<Parity> {
         [place(image, [a, b, d], [ab, bd, -ad], on_ad)?, place(image, [a, d, c], [ad, dc, ca], on_ad)?];
     let odd = |pair: [Place; 2]| (pair[0] == Place::Ahead) != (pair[1] == Place::Ahead);
     let [odd_bc, odd_ad] = [odd(across_bc), odd(across_ad)];
-    match (across_bc.contains(&Place::Here), across_ad.contains(&Place::Here)) {
-        (false, false) if odd_bc == odd_ad => Some(of(odd_bc)),
-        (false, false) => Some(match image.patch_side(corners)? {
+    let (on_bc, on_ad) = (across_bc.contains(&Place::Here), across_ad.contains(&Place::Here));
+    if !on_bc && !on_ad {
+        if odd_bc == odd_ad {
+            return Some(of(odd_bc));
+        }
+        return Some(match image.patch_side(corners)? {
             Sign::Positive => of(odd_bc),
             Sign::Negative => of(odd_ad),
             Sign::Zero => Parity::On,
-        }),
-        (true, false) if is_flat(image, corners)? => {
-            flat_patch(image, corners, [(across_bc, bc), (across_ad, ad)])
-        }
-        (true, false) => Some(of(odd_ad)),
-        (false, true) if is_flat(image, corners)? => {
-            flat_patch(image, corners, [(across_bc, bc), (across_ad, ad)])
-        }
-        (false, true) => Some(of(odd_bc)),
-        (true, true) => flat_patch(image, corners, [(across_bc, bc), (across_ad, ad)]),
+        });
     }
+    if (on_bc && on_ad) || is_flat(image, corners)? {
+        let winds = |places: [Place; 2], diagonal: Sign| {
+            !diagonal.is_zero() && (places[0] == Place::Here) != (places[1] == Place::Here)
+        };
+        if winds(across_bc, bc) || winds(across_ad, ad) {
+            return Some(Parity::On);
+        }
+        let turns_one_way = is_steady([ab, -dc, ad, -bc]) || is_steady([-ca, bd, ad, bc]);
+        let on = !turns_one_way && image.flat_patch_holds_origin(corners)?;
+        return Some(if on { Parity::On } else { Parity::Even });
+    }
+    Some(of(if on_bc { odd_ad } else { odd_bc }))
+}
+
+/// True when a quadratic has no root in [0, 1]: its Bernstein coefficients there have the signs `first`, `last`, and, as a
+/// mean, those of both `inner`.
+fn is_steady([first, last, inner @ ..]: [Sign; 4]) -> bool {
+    !first.is_zero() && last == first && inner.into_iter().all(|sign| sign != -first)
 }
 
 /// True when all corners are in one plane with the origin.
@@ -210,15 +223,4 @@ fn is_flat(image: &impl Image, [a, b, c, d]: [usize; 4]) -> Option<bool> {
         }
     }
     Some(true)
-}
-
-/// A patch in one plane with the origin, which is not on its boundary. For both pairs: the places of its triangles
-/// and the side of its diagonal.
-#[cold]
-fn flat_patch(image: &impl Image, corners: [usize; 4], pairs: [([Place; 2], Sign); 2]) -> Option<Parity> {
-    let winds = |(places, diagonal): ([Place; 2], Sign)| {
-        !diagonal.is_zero() && (places[0] == Place::Here) != (places[1] == Place::Here)
-    };
-    let on = pairs.into_iter().any(winds) || image.flat_patch_holds_origin(corners)?;
-    Some(if on { Parity::On } else { Parity::Even })
 }
