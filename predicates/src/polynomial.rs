@@ -134,9 +134,9 @@ pub(crate) trait SixthDegree: Ring<D3: Times<Self::D3, Product = Self::D6>> {
     type D6: Additive;
 }
 
-/// On which side of the bilinear patch with the corners `a`, `b`, `c`, `d` the origin is, `d` being opposite to `a`: the
-/// product of the determinants of the two triangles that share the diagonal `bc`, less that of the two that share `ad`
-/// \[Brochu12\].
+/// On which side of the bilinear patch with the corners `a`, `b`, `c`, `d` the origin is, `d` being opposite to
+/// `a`: the product of the determinants of the two triangles that share the diagonal `bc`, less that of the two
+/// that share `ad` \[Brochu12\].
 #[inline(always)]
 pub(crate) fn patch_side<K: SixthDegree>([a, b, c, d]: [&[K::D1; 3]; 4]) -> K::D6 {
     let across_bc = determinant3::<K>(a, b, c).times(&determinant3::<K>(b, d, c));

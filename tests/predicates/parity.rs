@@ -47,7 +47,8 @@ impl Random {
 
     /// Sign, a mantissa of few or of all bits, and an exponent in -1000..=1000.
     fn mixed(&mut self) -> f64 {
-        let mantissa = if self.below(2) == 0 { self.integer(3) } else { self.bits() as f64 - 2f64.powi(52) };
+        let few = self.below(2) == 0;
+        let mantissa = if few { self.integer(3) } else { self.bits() as f64 - 2f64.powi(52) };
         let power = self.below(2001) as i32 - 1000 - 53;
         mantissa * 2f64.powi(power / 2) * 2f64.powi(power - power / 2)
     }
@@ -107,8 +108,9 @@ fn halves<const P: usize>(points: [[f64; 3]; P]) -> Query {
 /// The answer, after checking that it does not depend on names, order, units or the direction of time.
 fn lawful(pair: Pair, query: Query) -> RootParity {
     let expected = parity(pair, query);
-    let same =
-        |law: &str, other: Query| assert_eq!(parity(pair, other), expected, "{law}: {pair:?} {query:?}");
+    let same = |law: &str, other: Query| {
+        assert_eq!(parity(pair, other), expected, "{law}: {pair:?} {query:?}");
+    };
     let [t0, t1] = query;
     same("time reversed", [t1, t0]);
     let points = |f: &dyn Fn([f64; 3]) -> [f64; 3]| query.map(|t| t.map(f));
@@ -189,7 +191,7 @@ fn a_tangential_contact_is_even() {
 #[test]
 fn a_flat_patch_beside_the_origin_is_no_contact() {
     assert_eq!(lawful(Pair::EdgeEdge, FLAT_PATCH), Even);
-    // With the resting edge's end inside of what the other sweeps twice, and on the line where both sweeps meet.
+    // With an end of the resting edge where the other one turns about, and inside of what it sweeps.
     let at = |z: f64| FLAT_PATCH.map(|t| [t[0], t[1], [0.0, 0.0, z], [0.0, 1.0, z]]);
     assert_eq!(lawful(Pair::EdgeEdge, at(0.0)), OnBoundary);
     let beside = FLAT_PATCH.map(|t| [t[0], t[1], [0.75, 0.0, 0.25], [0.75, 1.0, 0.25]]);

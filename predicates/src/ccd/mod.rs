@@ -17,7 +17,7 @@
 //! # Method
 //! Stages, each of which leaves to the next what it cannot decide:
 //!
-//! 1. boxes, by exact comparison of coordinates (`corners`);
+//! 1. boxes, by exact comparison of coordinates (`settle`);
 //! 2. separating directions, in rounded arithmetic with proven bounds (`separation`);
 //! 3. the step cut into intervals that rounded arithmetic with proven bounds can decide (`subdivision`, and `planar` for
 //!    motion in a coordinate plane);
@@ -25,8 +25,8 @@
 //! 5. as 3., in double-double numbers;
 //! 6. the complete decision in exact integers (`decide`, whose head states the algorithm and its proof).
 //!
-//! In contrast to crossing parity \[Brochu12\] an even number of contacts is seen, and no ray is cast. Which stage settled a query
-//! is told by [`staged`].
+//! In contrast to crossing parity ([`parity`], \[Brochu12\]) an even number of contacts is seen, and no ray is cast. Which stage settled
+//! a query is told by [`staged`].
 
 mod at_root;
 pub mod batch;

@@ -1,4 +1,5 @@
-//! A ray and a bilinear patch against the equations of the patch, solved in rational numbers and square roots of these.
+//! A ray and a bilinear patch against the equations of the patch, solved in rational numbers and square roots
+//! of these.
 
 use super::quadratic::{Field, Quadratic, Surd, roots};
 use super::{Random, mixed, on_grid};
@@ -45,8 +46,8 @@ fn ruling_holds_origin(field: &Field, functions: &[Bilinear; 3], s: &Surd) -> bo
     parallel && (0..3).all(|k| sign(&p[k]) * sign(&q[k]) <= 0)
 }
 
-/// Whether the origin is on the patch. The `s` for which the segment from `B(s, 0)` to `B(s, 1)` holds it are a closed set,
-/// which begins at 0, or where a coordinate of an end or of the ends' cross product is zero.
+/// Whether the origin is on the patch. The `s` for which the segment from `B(s, 0)` to `B(s, 1)` holds it are
+/// a closed set, which begins at 0, or where a coordinate of an end or of the ends' cross product is zero.
 fn holds_origin(functions: &[Bilinear; 3]) -> bool {
     let fixed = Field::rationals();
     if [0, 1].iter().any(|&s| ruling_holds_origin(&fixed, functions, &Surd::rational(Rational::from(s)))) {
@@ -201,7 +202,7 @@ fn agrees_with_the_solved_equations() {
 
 #[test]
 #[ignore = "minutes in release mode"]
-fn agrees_with_the_solved_equations_a_million_times() {
+fn agrees_a_million_times_with_the_solved_equations() {
     compare_all(1_000_000);
 }
 
@@ -217,7 +218,7 @@ fn rays_and_a_saddle() {
         assert_eq!(ask([0.5, 0.5, 0.25], up), OnPatch);
         assert_eq!(ask([0.5, 0.5, 0.25f64.next_up()], up), Even);
     }
-    // Along a ruling: the ray is (x, e^2 l, e^3 l) with l > 0, and meets z = x y at x = e. And from the ruling's end.
+    // Along a ruling: the ray is (x, e^2 l, e^3 l) with l > 0, and meets z = x y at x = e. From the ruling's end.
     assert_eq!(ask([-2.0, 0.0, 0.0], [1.0, 0.0, 0.0]), Odd);
     assert_eq!(ask([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]), OnPatch);
     // Through the saddle from one side to the same one: it crosses twice.

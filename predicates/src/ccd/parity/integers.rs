@@ -1,7 +1,7 @@
 //! The stage that always answers: the whole surface in integers.
 //!
-//! Corners are differences of given points, so everything is a polynomial of degree at most 6 in such differences: 379 bits for coordinates
-//! of one lattice of 61 bits, and 187 for one of 29.
+//! Corners are differences of given points, so everything is a polynomial of degree at most 6 in such
+//! differences: 379 bits for coordinates of one lattice of 61 bits, and 187 for one of 29.
 
 use super::super::STEP;
 use super::super::decide::Ask;

@@ -1,10 +1,11 @@
 //! The query in the plane: [`vertex_segment_2d`].
 //!
-//! The domain is the square of `(t, u)`, its boundary's image the quadrilateral of the corners `s0 - v`, `s1 - v` at the beginning and `s1 - v`,
-//! `s0 - v` at the end of the step. The ray has the direction `(1, e)` with an infinitesimal `e > 0`: the side `det(R, p)` of a corner is the
-//! sign of `p_y`, or of `-p_x` where that is zero, or zero if `p` is the origin. An edge between corners of one side meets neither
-//! the ray nor the origin; one from `p` to `q` on opposite sides meets the line of the ray once, ahead if `det(p, q)` has
-//! the side of `q`, at the origin if it is zero.
+//! The domain is the square of `(t, u)`, its boundary's image the quadrilateral of the corners `s0 - v`,
+//! `s1 - v` at the beginning and `s1 - v`, `s0 - v` at the end of the step. The ray has the direction
+//! `(1, e)` with an infinitesimal `e > 0`: the side `det(R, p)` of a corner is the sign of `p_y`, or of
+//! `-p_x` where that is zero, or zero if `p` is the origin. An edge between corners of one side meets neither
+//! the ray nor the origin; one from `p` to `q` on opposite sides meets the line of the ray once, ahead if
+//! `det(p, q)` has the side of `q`, at the origin if it is zero.
 
 use super::RootParity;
 use crate::arithmetic::fixed_point::{self, Integers};
@@ -16,8 +17,8 @@ use crate::{Point, Sign, filter};
 
 /// The parity of the contacts of a moving vertex and a moving segment of the plane.
 ///
-/// `t0` and `t1` are the places of `v, s0, s1` at the beginning and at the end of the step. `Even` when a coordinate is not
-/// finite.
+/// `t0` and `t1` are the places of `v, s0, s1` at the beginning and at the end of the step. `Even` when a
+/// coordinate is not finite.
 ///
 /// ```
 /// use welter_predicates::ccd::parity::{RootParity, vertex_segment_2d};
@@ -83,7 +84,8 @@ fn determinant((p, v): Corner, (q, w): Corner) -> Sign {
     }
 }
 
-/// The sign of the determinant of two corners that are differences of the first four points; the last is zero.
+/// The sign of the determinant of two corners that are differences of the first four points; the last is
+/// zero.
 #[cold]
 fn exactly(points: &[[f64; 2]; 5]) -> Sign {
     fn of<K: Ring<Outcome: Exact>>([p, v, q, w]: &[[K::D1; 2]; 4]) -> Sign {

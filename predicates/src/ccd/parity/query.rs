@@ -9,7 +9,8 @@ use super::rounded::parity_of_step;
 use super::surface::{Face, Parity};
 use crate::Point;
 
-/// The boundary of the prism over the triangle of corners 0, 1, 2 at the beginning and 3, 4, 5 at the end of the step.
+/// The boundary of the prism over the triangle of corners 0, 1, 2 at the beginning and 3, 4, 5 at the end of
+/// the step.
 pub(super) const PRISM: [Face; 5] = [
     Face::Patch([0, 1, 3, 4]),
     Face::Patch([1, 2, 4, 5]),
@@ -18,7 +19,8 @@ pub(super) const PRISM: [Face; 5] = [
     Face::Triangle([3, 4, 5]),
 ];
 
-/// The boundary of the cube over the parallelogram of corners 0, 1, 2, 3 at the beginning and 4, 5, 6, 7 at the end.
+/// The boundary of the cube over the parallelogram of corners 0, 1, 2, 3 at the beginning and 4, 5, 6, 7 at
+/// the end.
 pub(super) const CUBE: [Face; 6] = [
     Face::Patch([0, 1, 4, 5]),
     Face::Patch([1, 2, 5, 6]),
@@ -30,13 +32,14 @@ pub(super) const CUBE: [Face; 6] = [
 
 /// The parity of the contacts of a moving vertex and a moving triangle.
 ///
-/// `t0` and `t1` are the places of `v, f0, f1, f2` at the beginning and at the end of the step. `Even` when a coordinate is
-/// not finite.
+/// `t0` and `t1` are the places of `v, f0, f1, f2` at the beginning and at the end of the step. `Even` when a
+/// coordinate is not finite.
 ///
 /// ```
 /// use welter_predicates::ccd::parity::{RootParity, vertex_face};
 /// let rest = [[-4.0, -4.0, 0.0], [4.0, -4.0, 0.0], [0.0, 4.0, 0.0]];
-/// let step = |z0, z1| vertex_face([[0.0, 0.0, z0], rest[0], rest[1], rest[2]], [[0.0, 0.0, z1], rest[0], rest[1], rest[2]]);
+/// let at = |z| [[0.0, 0.0, z], rest[0], rest[1], rest[2]];
+/// let step = |z0, z1| vertex_face(at(z0), at(z1));
 /// assert_eq!(step(1.0, -1.0), RootParity::Odd);
 /// assert_eq!(step(1.0, 0.0), RootParity::OnBoundary);
 /// assert_eq!(step(1.0, 5e-324), RootParity::Even);
@@ -50,8 +53,8 @@ pub fn vertex_face(t0: [impl Point<3>; 4], t1: [impl Point<3>; 4]) -> RootParity
 
 /// The parity of the contacts of two moving edges.
 ///
-/// `t0` and `t1` are the places of `ea0, ea1, eb0, eb1` at the beginning and at the end of the step. `Even` when a coordinate is
-/// not finite.
+/// `t0` and `t1` are the places of `ea0, ea1, eb0, eb1` at the beginning and at the end of the step. `Even`
+/// when a coordinate is not finite.
 ///
 /// ```
 /// use welter_predicates::ccd::{self, parity};
@@ -74,8 +77,8 @@ pub(super) fn later((i, j): (usize, usize)) -> (usize, usize) {
     (i + 4, j + 4)
 }
 
-/// The parity of the crossings with the image of the domain's boundary. `both` has the corners at the beginning and the
-/// end of the step.
+/// The parity of the crossings with the image of the domain's boundary. `both` has the corners at the
+/// beginning and the end of the step.
 #[inline(always)]
 fn parity<const K: usize, const C: usize>(
     t0: &[[f64; 3]; 4],

@@ -16,11 +16,11 @@ const PATCH: [Face; 1] = [Face::Patch([0, 1, 2, 3])];
 /// B(s, t) = (1-s)(1-t) p00 + s(1-t) p10 + (1-s)t p01 + s t p11,    0 <= s, t <= 1
 /// ```
 ///
-/// It may be flat, folded, or shrunk to a line or to a point. The ray begins at `origin`. Its direction `R` stands for
-/// `R + (e, e^2, e^3)` with an infinitesimal `e > 0`, so that a ray through an edge or a corner passes on one
-/// side of it, and the zero vector is a direction as well. The crossings are counted with multiplicity: a ray that
-/// touches from one side has an even number. Over the patches of a closed surface, the parities add up to
-/// the same for every direction.
+/// It may be flat, folded, or shrunk to a line or to a point. The ray begins at `origin`. Its direction `R`
+/// stands for `R + (e, e^2, e^3)` with an infinitesimal `e > 0`, so that a ray through an edge or a corner
+/// passes on one side of it, and the zero vector is a direction as well. The crossings are counted with
+/// multiplicity: a ray that touches from one side has an even number. Over the patches of a closed surface,
+/// the parities add up to the same for every direction.
 ///
 /// `Even` when a coordinate is not finite.
 ///

@@ -1,29 +1,31 @@
 //! The first stage: the whole surface in rounded arithmetic, if every sign that is asked for is certain.
 //!
-//! **Bounds.** `u = 2^-53`, and `m_k` is at least the magnitude of coordinate `k` of every corner, which is a rounded difference. Multiply
-//! a polynomial out: each monomial has been through at most so many roundings `1 + e`, `|e| <= u`, so the error is at
-//! most that number of `u`, to first order, times the sum of the monomials' magnitudes:
+//! **Bounds.** `u = 2^-53`, and `m_k` is at least the magnitude of coordinate `k` of every corner, which is a
+//! rounded difference. Multiply a polynomial out: each monomial has been through at most so many roundings
+//! `1 + e`, `|e| <= u`, so the error is at most that number of `u`, to first order, times the sum of the
+//! monomials' magnitudes:
 //!
 //! ```text
 //!                                                roundings   monomials, at most
 //! side, free direction   y_i z_j - y_j z_i            8      8 m_y m_z
-//! side, given direction  det(R, p_i, p_j)             7      2 (|R_x| m_y m_z + |R_y| m_x m_z + |R_z| m_x m_y)
+//! side, given direction  det(R, p_i, p_j)             7      2 (|R_x| m_y m_z + |R_y| m_z m_x + ...)
 //! volume                 det(p_i, p_j, p_k)           8      6 m_x m_y m_z
 //! phi                                                18      72 (m_x m_y m_z)^2
 //! ```
 //!
-//! Tests recompute the bounds from the text of the polynomials, step by step as in [`crate::filter`], which gives somewhat less than this
-//! table for the first and the last. The constants have at least one `u` to spare for the higher orders and the rounding of the
-//! bound.
+//! Tests recompute the bounds from the text of the polynomials, step by step as in [`crate::filter`], which
+//! gives somewhat less than this table. The constants have at least one `u` to spare, for the higher orders
+//! and the rounding of the bound.
 //!
-//! **Direction.** If it is free it is `(1, g, h)`, whose `det(R, p_i, p_j)` is a minor of `y - g x` and `z - h x`. `g` and `h` are any numbers,
-//! those of [`TILT`] times `m_y / m_x` and `m_z / m_x`, so that both terms of a difference are of one order; each is at most that ratio, by
-//! a margin that covers its rounding.
+//! **Direction.** If it is free it is `(1, g, h)`, whose `det(R, p_i, p_j)` is a minor of `y - g x` and
+//! `z - h x`. `g` and `h` are any numbers, those of [`TILT`] times `m_y / m_x` and `m_z / m_x`, so that both
+//! terms of a difference are of one order; each is at most that ratio, by a margin that covers its rounding.
 //!
-//! **Range.** All `m_k` are in [2^-150, 2^150], and the largest magnitude of `R` too. Then nothing overflows, and each underflow adds at most
-//! 2^-1075 times four of the `m_k` (at least 1) or less. There are fewer than 2^13 of these, so for `phi` they add less than `2^-1062 m^4`
-//! with `m = max(1, m_k)`, against a spare `u (m_x m_y m_z)^2 >= 2^-53 (m 2^-300)^2 = 2^-653 m^2`, or `2^-953` if `m = 1`; for the others
-//! the margin is larger.
+//! **Range.** All `m_k` are in [2^-150, 2^150], and the largest magnitude of `R` too. Then nothing overflows,
+//! and each underflow adds at most 2^-1075 times four of the `m_k` (at least 1) or less. There are fewer than
+//! 2^13 of these, so for `phi` they add less than `2^-1062 m^4` with `m = max(1, m_k)`, against a spare
+//! `u (m_x m_y m_z)^2 >= 2^-53 (m 2^-300)^2 = 2^-653 m^2`, or `2^-953` if `m = 1`; for the others the margin
+//! is larger.
 
 use super::super::corners::Corners;
 use super::surface::{Face, Image, Parity, surface};

@@ -1,9 +1,10 @@
 //! The parity of the crossings of a ray from the origin and a surface of triangles and bilinear patches.
 //!
 //! # A patch
-//! `B(s, t)` has the corners `p0, p1, p2, p3`, of which `p0` and `p3` are opposite. It has the same boundary as the two triangles that share
-//! the diagonal `12`, which are `012` and `132`, and as those that share `03`, which are `013` and `032`. With
-//! `D_ijk = det(p_i, p_j, p_k)` let (degree 6; [`crate::polynomial::patch_side`])
+//! `B(s, t)` has the corners `p0, p1, p2, p3`, of which `p0` and `p3` are opposite. It has the same boundary
+//! as the two triangles that share the diagonal `12`, which are `012` and `132`, and as those that share
+//! `03`, which are `013` and `032`. With `D_ijk = det(p_i, p_j, p_k)` let (degree 6;
+//! [`crate::polynomial::patch_side`])
 //!
 //! ```text
 //! phi = D_012 D_132 - D_013 D_032
@@ -11,53 +12,61 @@
 //!
 //! **Claims**, for an origin that is not on the patch:
 //!
-//! 1. If `phi > 0`, the patch has the degree of pair 12, which the origin is not on. If `phi < 0`, that of pair 03, likewise.
-//! 2. If `phi = 0`, both pairs have the same degree, unless the origin is in one plane with all corners, and then the
-//!    degree is zero.
+//! 1. If `phi > 0`, the patch has the degree of pair 12, which the origin is not on. If `phi < 0`, that of
+//!    pair 03, likewise.
+//! 2. If `phi = 0`, both pairs have the same degree, unless the origin is in one plane with all corners, and
+//!    then the degree is zero.
 //!
-//! And 3.: if the corners are not in one plane, the origin is on the patch if and only if `phi = 0` and the origin is in the closed
-//! tetrahedron of the corners.
+//! And 3.: if the corners are not in one plane, the origin is on the patch if and only if `phi = 0` and the
+//! origin is in the closed tetrahedron of the corners.
 //!
-//! **Proof.** Let `W = p0 - p1 - p2 + p3`, and move the pair 12, taken as linear functions on the two halves of the square, to the
-//! patch by straight lines. A point moves by `s t W` in the half `s + t <= 1` and by `(1-s)(1-t) W` in the other; the boundary
-//! stays. If the corners are not in one plane, write points in barycentric coordinates `a, b, c, d` and
-//! `q = a d - b c`. After the part `m` of the way in the first half, `a = 1 - s - t + m`, `b = s - m`, `c = t - m`, `d = m`
-//! and `q = m - s t`: negative on the way, zero at its end. The other half is the same with 0 and 3 exchanged. So an origin on the way
-//! has `q < 0`. With 1 and 0, 2 and 3 exchanged, `q` becomes `-q` and pair 12 becomes pair 03, so an origin on the way from pair 03
-//! has `q > 0`. All points of both ways are in the tetrahedron. Solving for the origin's coordinates by Cramer's rule,
-//! with `V` six times the volume of the tetrahedron,
+//! **Proof.** Let `W = p0 - p1 - p2 + p3`, and move the pair 12, taken as linear functions on the two halves
+//! of the square, to the patch by straight lines. A point moves by `s t W` in the half `s + t <= 1` and by
+//! `(1-s)(1-t) W` in the other; the boundary stays. If the corners are not in one plane, write points in
+//! barycentric coordinates `a, b, c, d` and `q = a d - b c`. After the part `m` of the way in the first half,
+//! `a = 1 - s - t + m`, `b = s - m`, `c = t - m`, `d = m` and `q = m - s t`: negative on the way, zero at its
+//! end. The other half is the same with 0 and 3 exchanged. So an origin on the way has `q < 0`. With 1 and 0,
+//! 2 and 3 exchanged, `q` becomes `-q` and pair 12 becomes pair 03, so an origin on the way from pair 03 has
+//! `q > 0`. All points of both ways are in the tetrahedron. Solving for the origin's coordinates by Cramer's
+//! rule, with `V` six times the volume of the tetrahedron,
 //!
 //! ```text
 //! a V = -D_132    b V = D_032    c V = D_013    d V = -D_012        so    phi = V^2 q
 //! ```
 //!
-//! which is 1. and, as neither way meets an origin outside of the tetrahedron, 2. For 3.: coordinates that are not negative, of
-//! sum 1, with `a d = b c`, are those of the patch at `s = b + d`, `t = c + d`. If the corners lie in one plane, so
-//! do both ways. A plane that misses the origin makes both degrees that of the patch, whatever `phi`. In one plane with the
-//! origin all `D` and `phi` are zero, and the ray leaves the plane. (It does: the plane has a normal, which takes the place of `n` in
-//! [`super`].) Conversely, if all `D` are zero the origin is in one plane with all corners.
+//! which is 1. and, as neither way meets an origin outside of the tetrahedron, 2. For 3.: coordinates that
+//! are not negative, of sum 1, with `a d = b c`, are those of the patch at `s = b + d`, `t = c + d`. If the
+//! corners lie in one plane, so do both ways. A plane that misses the origin makes both degrees that of the
+//! patch, whatever `phi`. In one plane with the origin all `D` and `phi` are zero, and the ray leaves the
+//! plane. (It does: the plane has a normal, which takes the place of `n` in [`super`].) Conversely, if all
+//! `D` are zero the origin is in one plane with all corners.
 //!
 //! # Without phi, mostly
-//! [`patch`] asks first on which of the four triangles the origin is, and which the ray crosses. Suppose that the origin is not
-//! on the boundary of the patch. A line from the origin through no edge of the tetrahedron crosses its surface twice or not at all.
+//! [`patch`] asks first on which of the four triangles the origin is, and which the ray crosses. Suppose that
+//! the origin is not on the boundary of the patch. A line from the origin through no edge of the tetrahedron
+//! crosses its surface twice or not at all.
 //!
-//! * *The origin is on no triangle.* If both pairs have the same degree, that is the answer. The origin is not on the
-//!   patch then: inside of the tetrahedron, one of the two crossings of the line is on the ray, so the degrees differ. If they
-//!   differ, `phi` tells; if it is zero, the origin, which must be in the tetrahedron, is on the patch.
-//! * *On triangles of one pair only.* Not in one plane with all corners, the origin is on a face, off the boundary of
-//!   the patch, and so `phi` is not zero (`q` is a product of two coordinates that vanish only there) and
-//!   tells the other pair. In one plane with them: see below.
-//! * *On triangles of both pairs.* Faces of a tetrahedron that belong to different pairs meet in an edge of the patch: all
-//!   must be in one plane.
+//! * *The origin is on no triangle.* If both pairs have the same degree, that is the answer. The origin is
+//!   not on the patch then: inside of the tetrahedron, one of the two crossings of the line is on the ray, so
+//!   the degrees differ; and a flat patch is in the union of the four triangles. If they differ, the corners
+//!   are not in one plane and the origin is in the tetrahedron: `phi` tells, and if it is zero, the origin is
+//!   on the patch.
+//! * *On triangles of one pair only.* Not in one plane with all corners, the origin is on a face, off the
+//!   boundary of the patch, and so `phi` is not zero (`q` is a product of two coordinates that vanish only
+//!   there) and tells the other pair. In one plane with them: see below.
+//! * *On triangles of both pairs.* Faces of a tetrahedron that belong to different pairs meet in an edge of
+//!   the patch: all must be in one plane.
 //!
-//! In one plane with all corners, the degree is zero and only the position of the origin is asked for. Off the diagonal of a pair it is on
-//! the patch if an odd number of the pair's triangles hold it, since the boundary then winds around it an odd number of times. Else the patch
-//! is taken as a segment that moves from `p0 p1` to `p2 p3`. In units of the plane's normal, the cross product of its ends is a quadratic of
-//! time with the Bernstein coefficients `n_01`, `(n_03 + n_21) / 2`, `n_23`; if these have one strict sign ([`is_steady`]) the segment never holds
-//! the origin. So for the segment from `p0 p2` to `p1 p3`. What is left goes to [`super::super::decide`].
+//! In one plane with all corners, the degree is zero and only the position of the origin is asked for. Off
+//! the diagonal of a pair it is on the patch if an odd number of the pair's triangles hold it, since the
+//! boundary then winds around it an odd number of times. Else the patch is taken as a segment that moves from
+//! `p0 p1` to `p2 p3`. In units of the plane's normal, the cross product of its ends is a quadratic of time
+//! with the Bernstein coefficients `n_01`, `(n_03 + n_21) / 2`, `n_23`; if these have one strict sign
+//! ([`is_steady`]) the segment never holds the origin. So for the segment from `p0 p2` to `p1 p3`. What is
+//! left goes to [`super::super::decide`].
 //!
-//! If the origin is on the line of an edge but not on the edge, the edge's triangles are in one plane with the origin, and
-//! on them it is only if it is on another of their edges. The ray does not cross them.
+//! If the origin is on the line of an edge but not on the edge, the edge's triangles are in one plane with
+//! the origin, and on them it is only if it is on another of their edges. The ray does not cross them.
 
 use crate::Sign;
 
@@ -209,8 +218,8 @@ fn patch(image: &impl Image, corners: [usize; 4]) -> Option<Parity> {
     Some(of(if on_bc { odd_ad } else { odd_bc }))
 }
 
-/// True when a quadratic has no root in [0, 1]: its Bernstein coefficients there have the signs `first`, `last`, and, as a
-/// mean, those of both `inner`.
+/// True when a quadratic has no root in [0, 1]: its Bernstein coefficients there have the signs `first`,
+/// `last`, and, as a mean, those of both `inner`.
 fn is_steady([first, last, inner @ ..]: [Sign; 4]) -> bool {
     !first.is_zero() && last == first && inner.into_iter().all(|sign| sign != -first)
 }

@@ -93,7 +93,7 @@ fn stages_agree_on_steps() {
     let near = |random: &mut Random| random.integer(2) + random.uniform() / (1u64 << 49) as f64;
     let answered = compare_steps(500, || random.query(near));
     assert!(answered.rounded > 100 && answered.rounded < 900, "{answered:?}");
-    // At both ends of the range of the rounded stage and beyond: it answers or it does not, but never wrongly.
+    // At both ends of the range of the rounded stage and beyond: it answers or not, but never wrongly.
     for power in [-1040, -200, -160, -140, 140, 160, 200, 1000] {
         let scale = |x: f64| x * crate::arithmetic::scaled::power_of_two(power / 2);
         let answered = compare_steps(50, || random.query(|random| scale(scale(random.integer(4)))));
