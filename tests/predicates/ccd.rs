@@ -7,11 +7,11 @@ use welter_predicates::ccd::{
     vertex_segment_2d_times,
 };
 
-type Query = [[[f64; 3]; 4]; 2];
+pub(crate) type Query = [[[f64; 3]; 4]; 2];
 
 /// A vertex and a face, or two edges.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Pair {
+pub(crate) enum Pair {
     VertexFace,
     EdgeEdge,
 }
@@ -258,8 +258,8 @@ fn coordinate(numerator: &str, denominator: &str) -> f64 {
     rounded
 }
 
-#[test]
-fn public_queries_have_their_known_answers() {
+/// Calls `f` with file, number, query and known answer of every public query.
+pub(crate) fn for_each_public_query(mut f: impl FnMut(&Path, usize, Pair, Query, bool)) {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data/ccd-queries"));
     if !root.is_dir() {
         println!("skipped: {} is not there", root.display());
@@ -278,8 +278,7 @@ fn public_queries_have_their_known_answers() {
                     std::array::from_fn(|k| coordinate(rows[i][2 * k], rows[i][2 * k + 1]))
                 };
                 let query: Query = std::array::from_fn(|t| std::array::from_fn(|i| point(4 * t + i)));
-                let truth = rows[0][6].trim() == "1";
-                assert_eq!(times(pair, query).any(), truth, "{} query {number}", file.display());
+                f(&file, number, pair, query, rows[0][6].trim() == "1");
                 queries += 1;
             }
         }
@@ -329,4 +328,11 @@ fn contact_within_a_part_of_the_step() {
     for bad in [[-0.5, 1.0], [0.0, 1.5], [f64::NAN, 1.0], [0.0, f64::NAN], [1.0, 0.0]] {
         assert!(!vertex_face_during(v(1.0), v(-3.0), bad));
     }
+}
+
+#[test]
+fn public_queries_have_their_known_answers() {
+    for_each_public_query(|file, number, pair, query, truth| {
+        assert_eq!(times(pair, query).any(), truth, "{} query {number}", file.display());
+    });
 }

@@ -5,17 +5,9 @@ mod patch;
 mod quadratic;
 mod roots;
 
+use crate::ccd::{Pair, Query};
 use welter_predicates::ccd::parity::RootParity::{Even, Odd, OnBoundary};
 use welter_predicates::ccd::parity::{RootParity, edge_edge, vertex_face, vertex_segment_2d};
-
-type Query = [[[f64; 3]; 4]; 2];
-
-/// A vertex and a face, or two edges.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Pair {
-    VertexFace,
-    EdgeEdge,
-}
 
 const PAIRS: [Pair; 2] = [Pair::VertexFace, Pair::EdgeEdge];
 

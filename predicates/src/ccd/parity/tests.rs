@@ -1,7 +1,7 @@
 //! The stages against each other.
 
-use super::super::query::{EDGE_EDGE, VERTEX_FACE};
-use super::super::separation::Corners;
+use super::super::corners::Corners;
+use super::super::{EDGE_EDGE, VERTEX_FACE};
 use super::integers::Given;
 use super::query::{CUBE, PRISM, later};
 use super::rounded::{parity_of_patch, parity_of_step};
@@ -65,11 +65,11 @@ fn compare_steps(rounds: usize, mut input: impl FnMut() -> [[[f64; 3]; 4]; 2]) -
         let points = query.as_flattened();
         let [a, b, c] = VERTEX_FACE;
         let given = Given::new(points, [a, b, c, later(a), later(b), later(c)], None);
-        let rounded = parity_of_step(&Corners::new(&query[0], &query[1], &VERTEX_FACE), &PRISM);
+        let rounded = parity_of_step(&Corners::new([&query[0], &query[1]], &VERTEX_FACE, None), &PRISM);
         compare(&given, &PRISM, rounded, &mut answered);
         let [a, b, c, d] = EDGE_EDGE;
         let given = Given::new(points, [a, b, c, d, later(a), later(b), later(c), later(d)], None);
-        let rounded = parity_of_step(&Corners::new(&query[0], &query[1], &EDGE_EDGE), &CUBE);
+        let rounded = parity_of_step(&Corners::new([&query[0], &query[1]], &EDGE_EDGE, None), &CUBE);
         compare(&given, &CUBE, rounded, &mut answered);
     }
     answered
