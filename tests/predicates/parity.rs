@@ -18,6 +18,12 @@ fn parity(pair: Pair, [t0, t1]: Query) -> RootParity {
     }
 }
 
+/// By what the environment variable `WELTER_CASES` multiplies the number of random queries: 1 in a run of the
+/// tests; a million queries of each kind, that is 50 in release mode, have been run once.
+fn factor() -> usize {
+    std::env::var("WELTER_CASES").ok().and_then(|value| value.parse().ok()).unwrap_or(1)
+}
+
 /// Pseudorandom numbers.
 struct Random(u64);
 

@@ -1,7 +1,7 @@
 //! Root parity against the complete decision: contacts counted by time, with their multiplicity from rational
 //! arithmetic.
 
-use super::{PAIRS, Random, halves, mixed, on_grid, parity};
+use super::{PAIRS, Random, factor, halves, mixed, on_grid, parity};
 use crate::ccd::{Pair, Query, for_each_public_query};
 use rug::Rational;
 use welter_predicates::ccd::parity::{RootParity, vertex_segment_2d};
@@ -154,10 +154,8 @@ fn compare(seed: u64, rounds: usize, mut input: impl FnMut(&mut Random) -> Query
     counts
 }
 
-/// Queries of each kind in a run of the tests, and in a long run by hand:
-/// `cargo test --release -p welter-tests --test predicates -- --ignored million`.
+/// Queries of each kind, times [`factor`].
 const ROUNDS: usize = 20_000;
-const LONG: usize = 1_000_000;
 
 /// Fewer, because the complete decision takes up to a fraction of a second for these.
 const MIXED: usize = 200;
@@ -181,37 +179,28 @@ fn compare_mixed(rounds: usize) {
 }
 
 #[test]
-fn agrees_with_the_complete_decision() {
-    for size in [1, 2, 4] {
-        compare_grid(size, ROUNDS);
-    }
-    compare_uniform(ROUNDS / 10);
-    compare_mixed(MIXED);
+fn agrees_with_the_complete_decision_on_grid_1() {
+    compare_grid(1, ROUNDS * factor());
 }
 
 #[test]
-#[ignore = "minutes in release mode"]
-fn agrees_a_million_times_on_grid_1() {
-    compare_grid(1, LONG);
+fn agrees_with_the_complete_decision_on_grid_2() {
+    compare_grid(2, ROUNDS * factor());
 }
 
 #[test]
-#[ignore = "minutes in release mode"]
-fn agrees_a_million_times_on_grid_2() {
-    compare_grid(2, LONG);
+fn agrees_with_the_complete_decision_on_grid_4() {
+    compare_grid(4, ROUNDS * factor());
 }
 
 #[test]
-#[ignore = "minutes in release mode"]
-fn agrees_a_million_times_on_grid_4() {
-    compare_grid(4, LONG);
+fn agrees_with_the_complete_decision_on_uniform_input() {
+    compare_uniform(ROUNDS / 10 * factor());
 }
 
 #[test]
-#[ignore = "minutes in release mode"]
-fn agrees_a_million_times_on_uniform_input() {
-    compare_uniform(LONG);
-    compare_mixed(10 * MIXED);
+fn agrees_with_the_complete_decision_on_mixed_exponents() {
+    compare_mixed(MIXED * factor());
 }
 
 /// Where the answer is not that of the complete decision, the contacts are even in number.
@@ -270,16 +259,8 @@ fn compare_planar(seed: u64, rounds: usize, size: u64) -> [u32; 3] {
 #[test]
 fn agrees_with_the_complete_decision_in_the_plane() {
     for size in [1, 2, 4, 1000] {
-        let counts = compare_planar(size, ROUNDS, size);
+        let counts = compare_planar(size, ROUNDS * factor(), size);
         println!("plane, grid {size}: {counts:?}");
         assert!(counts[1] > 100 && counts[2] > 100);
-    }
-}
-
-#[test]
-#[ignore = "minutes in release mode"]
-fn agrees_a_million_times_in_the_plane() {
-    for size in [1, 2, 4, 1000] {
-        println!("plane, grid {size}: {:?}", compare_planar(size + 10, LONG, size));
     }
 }
