@@ -201,6 +201,14 @@ fn a_single_root_is_odd_along_all_axes() {
     assert_eq!(lawful(Pair::EdgeEdge, SINGLE_ROOT), Odd);
 }
 
+/// The volume is 8 - 48 t + 90 t^2 - 54 t^3, with the roots 1/3 and, twice, 2/3, when the edges are parallel.
+#[test]
+fn a_double_root_without_a_contact_does_not_count() {
+    let t0 = [[1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [0.0, 0.0, -1.0], [-1.0, 1.0, 1.0]];
+    let t1 = [[-1.0, 0.0, -1.0], [0.0, 1.0, -1.0], [0.0, -1.0, 1.0], [1.0, -1.0, 0.0]];
+    assert_eq!(lawful(Pair::EdgeEdge, [t0, t1]), Odd);
+}
+
 #[test]
 fn collinear_sliding_is_on_the_boundary() {
     assert_eq!(lawful(Pair::EdgeEdge, SLIDING), OnBoundary);

@@ -96,13 +96,16 @@ fn multiple_root([d, c, b, a]: &[Rational; 4]) -> Option<(Rational, u32)> {
     zero(&discriminant).then(|| (q * -3i32 / p / 2u32 - shift, 2))
 }
 
-/// Whether a convex polygon of some area, in a plane through the origin, holds it.
+/// Whether a convex polygon in a plane through the origin, which is not on its boundary, holds it: never
+/// without an area.
 fn holds_origin(corners: &[Vector]) -> bool {
     let area = cross(&subtract(&corners[1], &corners[0]), &subtract(corners.last().unwrap(), &corners[0]));
-    (0..corners.len()).all(|i| {
-        let normal = cross(&corners[i], &corners[(i + 1) % corners.len()]);
-        dot(&normal, &area).cmp0().is_ge()
-    })
+    let has_area = area.iter().any(|x| x.cmp0().is_ne());
+    has_area
+        && (0..corners.len()).all(|i| {
+            let normal = cross(&corners[i], &corners[(i + 1) % corners.len()]);
+            dot(&normal, &area).cmp0().is_ge()
+        })
 }
 
 /// The parity of `count` contacts inside the domain, each as often as its time is a root of the volume.
