@@ -67,9 +67,10 @@
 //! coordinates lie on a lattice.
 //!
 //! # Cost
-//! Where rounded arithmetic decides, about as much as ten `orient3d`; in machine words a few times that. The
-//! worst case is that of integers of 2100 bits a coordinate, and, for a patch that lies in a plane with the
-//! origin, of the complete decision for a moving segment.
+//! Measured on random queries, those that are culled included: in general position, where rounded arithmetic
+//! decides, 0.3 microseconds for vertex-face and 0.4 for edge-edge; on small integer grids, in machine words,
+//! 0.3 to 1.6; where all points lie in one plane 5 to 20, because some flat patches ask the complete decision for
+//! a moving segment. The worst case is that of integers of 2100 bits a coordinate.
 
 mod integers;
 mod planar;
