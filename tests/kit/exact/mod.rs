@@ -6,6 +6,7 @@ mod determinant;
 mod lift;
 pub mod linear;
 mod meeting;
+pub mod moving;
 mod orient;
 mod rounding;
 mod self_intersection;

@@ -1,44 +1,35 @@
-//! Conservative advancement along separating directions: how long a moving polygon stays away from the origin.
+//! Conservative advancement: how long a moving polygon stays away from the origin.
 //!
 //! # What it promises
 //! [`advance`] returns a time before which the polygon is farther than `distance` from the origin, proven: at no time before it,
 //! nor at it unless it is 0, is the exact distance of the exact motion `distance` or less.
 //!
 //! # What it does not promise
-//! To get as near as [`SLACK`] to the distance: it says how near it got. It gives up after a number of steps, which a polygon that
-//! turns while it stays near may use up, and where no direction that it tries proves a step.
+//! To get as near as the slack to the distance. It gives up after a number of steps, which a polygon that turns while it
+//! stays near may use up, and where no direction that it tries proves a step.
 //!
 //! # Method
-//! Conservative advancement \[Mirtich96\] with linear bounds. For any direction `d`, `d . P_i(t)` is linear in time, and
-//! the polygon is farther than `D` from the origin while all of these exceed `D |d|`. From a time at which they do, this
-//! holds up to the first time at which one of them does not any more: a step of Newton's method on the distance, which a
-//! flat motion ends in one step and a smooth one in a few. The direction that carries farthest is taken, and new ones are
-//! computed where it ends. How a direction was found plays no role in the proof.
-//!
-//! # Bound
-//! With `S = sum |d_k| m_k`, `m_k` the largest magnitude of coordinate `k` of a corner, the rounded product `A_i` of a corner at
-//! an end of the step errs by at most `5u S` (one rounding of the corner, one of the product, two of the sums), and
-//! `A_i + t (B_i - A_i)` by `5u S` more: 2u of the difference, which is at most `2 S`, 2u of the product, u of the sum. [`DOT`]
-//! takes 14u for these 10u and the roundings of the bound itself, [`NORM`] 16u for the at most 8 of `D |d|`, and
-//! [`UNDERFLOW`] more than all that underflow may take: products of numbers below 2 lose 2^-1075 each.
+//! Conservative advancement \[Mirtich96\]. From a time at which a direction holds the polygon away, it does so up to the first time at which
+//! a corner comes too near along it: a motion without turning ends in one step. Where that is short, because the polygon turns, a
+//! step of Newton's method on the distance tells where it will be too near; a little before that place, or else at parts of the way to
+//! it, the direction that belongs to the same feature is computed, and the direction that turns from the old to the new one tried. So the distance
+//! that is left shrinks quadratically in the end. `support` holds the proofs.
 
 use glam::DVec3;
 
 use super::motion::Motion;
-use super::polygon::{Polygon, ROUNDING, Spot, length};
-
-/// 14u.
-const DOT: f64 = 7.0 * f64::EPSILON;
-
-/// 1 + 16u.
-const NORM: f64 = 1.0 + 8.0 * f64::EPSILON;
-
-/// 2^-1000: larger than what underflow may take away, a normal number.
-const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
+use super::support::{Place, Support};
 
 /// How near is near enough, relative to the size of the motion: 2^-44, eight times the error of a distance, so that the
 /// distance is known to three bits where a search ends.
 pub(super) const SLACK: f64 = f64::EPSILON * 256.0;
+
+/// Parts of Newton's step that are tried: nearly all of it, which succeeds in the end; a bit less, since the distance may fall faster than
+/// in proportion; and what is left when it is far too long.
+const PARTS: [f64; 4] = [1.0 - 1.0 / (1 << 20) as f64, 31.0 / 32.0, 0.5, 0.125];
+
+/// The same for a step to the end of time, which is tried as a whole.
+const PARTS_TO_END: [f64; 4] = [1.0, 0.75, 0.375, 0.125];
 
 /// A time up to which nothing is met.
 pub(super) struct Advance {
@@ -50,93 +41,67 @@ pub(super) struct Advance {
     pub(super) steps: u32,
 }
 
-/// The closest point at a time, and bounds of the distance there.
-pub(super) fn nearness<const K: usize>(motion: &Motion<K>, time: f64) -> (Spot, [f64; 2]) {
-    let (closest, directions) = Polygon::new(motion.at(time)).closest();
-    let lower = directions.map(|d| Support::new(motion, d).distance(time)).fold(0.0, f64::max);
-    (closest, [lower, upper_bound(motion, &closest)])
-}
-
-fn upper_bound<const K: usize>(motion: &Motion<K>, closest: &Spot) -> f64 {
-    closest.distance + ROUNDING * length(motion.maxima)
-}
-
-/// Advances from time 0 until the polygon is about as near as `distance`, at most `most_steps` times.
-pub(super) fn advance<const K: usize>(motion: &Motion<K>, distance: f64, most_steps: u32) -> Advance {
-    let near = distance + SLACK * length(motion.maxima);
+/// Advances from time 0 until the polygon is as near as `distance` and the slack, at most `most_steps` times.
+pub(super) fn advance<const K: usize>(
+    motion: &Motion<K>,
+    distance: f64,
+    slack: f64,
+    most_steps: u32,
+) -> Advance {
+    let near = distance + slack * super::polygon::length(motion.maxima);
     let mut reached = Advance { time: 0.0, direction: None, steps: 0 };
+    let mut place = Place::new(motion, 0.0);
     loop {
-        let (closest, directions) = Polygon::new(motion.at(reached.time)).closest();
-        let mut farthest = (reached.time, None);
-        for d in directions {
-            let mut support = Support::new(motion, d);
-            let until = support.safe_until(reached.time, distance);
-            if until > farthest.0 {
-                farthest = (until, Some(support.direction));
-            }
-        }
-        let (time, direction) = farthest;
+        let Step { time, direction, next } = step(motion, &place, distance);
         if time > 1.0 {
             return Advance { time, direction, ..reached };
         }
-        let is_near = upper_bound(motion, &closest) <= near;
+        let is_near = place.upper_bound(motion) <= near;
         if is_near || direction.is_none() || reached.steps == most_steps {
             return reached;
         }
         reached = Advance { time, direction, steps: reached.steps + 1 };
+        place = next.unwrap_or_else(|| Place::new(motion, time));
     }
 }
 
-/// The products of a direction with the corners at both ends of the step.
-struct Support<const K: usize> {
-    direction: DVec3,
-    norm: f64,
-    error: f64,
-    ends: [[f64; K]; 2],
+/// A step of advancement: as [`Advance`], with the polygon at its end if that was computed.
+struct Step<const K: usize> {
+    time: f64,
+    direction: Option<DVec3>,
+    next: Option<Place<K>>,
 }
 
-impl<const K: usize> Support<K> {
-    fn new(motion: &Motion<K>, direction: DVec3) -> Self {
-        let ends = motion.ends.map(|corners| corners.map(|p| direction.dot(p)));
-        let error = direction.abs().dot(motion.maxima) * DOT + UNDERFLOW;
-        Self { direction, norm: direction.length() * NORM, error, ends }
-    }
-
-    fn at(&self, i: usize, time: f64) -> f64 {
-        self.ends[0][i] + time * (self.ends[1][i] - self.ends[0][i])
-    }
-
-    /// A lower bound of the distance at a time.
-    fn distance(&self, time: f64) -> f64 {
-        let low = (0..K).fold(f64::INFINITY, |low, i| low.min(self.at(i, time)));
-        let high = (0..K).fold(f64::NEG_INFINITY, |high, i| high.max(self.at(i, time)));
-        let away = low.max(-high) - 2.0 * self.error;
-        if away > 0.0 { away / (self.norm * NORM) } else { 0.0 }
-    }
-
-    /// A time up to which the polygon is proven to be farther than `distance`, from `time` on: `time` itself if nothing is proven,
-    /// and more than 1 if it is so until the end. Turns the direction to the side where the polygon is.
-    fn safe_until(&mut self, time: f64, distance: f64) -> f64 {
-        if self.at(0, time) < 0.0 {
-            self.direction = -self.direction;
-            for x in self.ends.as_flattened_mut() {
-                *x = -*x;
-            }
+fn step<const K: usize>(motion: &Motion<K>, place: &Place<K>, distance: f64) -> Step<K> {
+    let mut best = Step { time: place.time, direction: None, next: None };
+    let mut highest = (0.0, None);
+    for &d in place.directions.iter().flatten() {
+        let support = Support::new(motion, d, place.time);
+        let until = support.safe_until(place.time, distance);
+        if until > best.time {
+            best = Step { time: until, direction: Some(support.direction), next: None };
         }
-        let limit = distance * self.norm * NORM + self.error;
-        let exceeds = |time: f64| (0..K).all(|i| self.at(i, time) > limit);
-        if !exceeds(time) {
-            return time;
+        let away = support.distance(place.time);
+        if away > highest.0 {
+            highest = (away, Some(support.direction));
         }
-        if self.ends[1].iter().all(|&x| x > limit) {
-            return f64::INFINITY;
-        }
-        // Where the first of them meets the limit, and a little before.
-        let until = (0..K).filter(|&i| self.ends[1][i] <= limit).fold(1.0_f64, |until, i| {
-            let [from, to] = [self.ends[0][i], self.ends[1][i]];
-            until.min((from - limit) / (from - to))
-        });
-        let candidates = [until.next_down(), until * (1.0 - f64::EPSILON), until - self.error];
-        candidates.into_iter().find(|&t| t > time && exceeds(t)).unwrap_or(time)
     }
+    let (away, Some(direction)) = highest else { return best };
+    // Newton's step on the distance along that direction.
+    let speed = -direction.dot(motion.velocity(place.closest.parameters));
+    let way = if speed > 0.0 { (away - distance) / speed } else { f64::INFINITY };
+    let left = 1.0 - place.time;
+    let (way, parts) = if way < left { (way, PARTS) } else { (left, PARTS_TO_END) };
+    for part in parts {
+        let time = if part == 1.0 { 1.0 } else { place.time + part * way };
+        if time <= best.time || time <= place.time {
+            break;
+        }
+        let there = Place::new(motion, time);
+        if let Some(direction) = place.stays_beyond(&there, motion, distance) {
+            let time = if time == 1.0 { f64::INFINITY } else { time };
+            return Step { time, direction: Some(direction), next: Some(there) };
+        }
+    }
+    best
 }

@@ -14,10 +14,10 @@
 //! # Method
 //! [`polygon`](super)'s candidates, and for the lower bound its directions. Complexity: constant.
 
-use super::advance::nearness;
 use super::error::check_finite;
 use super::motion::Motion;
 use super::pair::{EDGE_EDGE, Pair, VERTEX_FACE, VERTEX_SEGMENT};
+use super::support::Place;
 use super::{CollisionError, coordinates};
 use welter_predicates::Point;
 
@@ -83,6 +83,7 @@ fn closest<const D: usize, const P: usize, const K: usize>(
 ) -> Result<ClosestPoints<P>, CollisionError> {
     check_finite(&pair.names, [&points, &points])?;
     let motion = Motion::new(pair, &points, &points);
-    let (spot, distance) = nearness(&motion, 0.0);
-    Ok(ClosestPoints { weights: (pair.weights)(spot.parameters), distance: motion.unscaled(distance) })
+    let place = Place::new(&motion, 0.0);
+    let weights = (pair.weights)(place.closest.parameters);
+    Ok(ClosestPoints { weights, distance: motion.unscaled(place.distance(&motion)) })
 }

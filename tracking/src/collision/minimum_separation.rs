@@ -21,11 +21,12 @@
 //! Conservative advancement, with a proven bound in rounded arithmetic (`advance`); for a distance of 0, exact contact first.
 //! Cost: a few steps in general, at most the number that the parameters allow.
 
-use super::advance::{advance, nearness};
+use super::advance::{SLACK, advance};
 use super::error::{check_finite, require};
 use super::motion::Motion;
 use super::pair::{EDGE_EDGE, Pair, VERTEX_FACE, VERTEX_SEGMENT};
 use super::response::{normal, outward};
+use super::support::Place;
 use super::{CollisionError, coordinates};
 use welter_predicates::{Point, ccd};
 
@@ -162,16 +163,16 @@ fn first_approach<const D: usize, const P: usize, const K: usize>(
     if motion.boxes_apart(distance) || (distance == 0.0 && !contact()) {
         return Ok(None);
     }
-    let reached = advance(&motion, distance, parameters.most_steps);
+    let reached = advance(&motion, distance, SLACK, parameters.most_steps);
     if reached.time > 1.0 {
         return Ok(None);
     }
-    let (closest, bounds) = nearness(&motion, reached.time);
+    let place = Place::new(&motion, reached.time);
     Ok(Some(Approach {
         time: reached.time,
-        distance: motion.unscaled(bounds),
-        weights: (pair.weights)(closest.parameters),
-        normal: outward(pair, normal(&motion, &reached, &closest)),
+        distance: motion.unscaled(place.distance(&motion)),
+        weights: (pair.weights)(place.closest.parameters),
+        normal: outward(pair, normal(&motion, &reached, &place.closest)),
         steps: reached.steps,
     }))
 }

@@ -22,7 +22,7 @@
 //!
 //! # Method
 //! The difference of two primitives is a moving polygon (`pair`, `motion`) that is met by the origin when they touch. Its closest point
-//! (`polygon`) gives directions along which it stays away for a while, proven in rounded arithmetic (`advance`). What
+//! (`polygon`) gives directions along which it stays away for a while, proven in rounded arithmetic (`support`, `advance`). What
 //! that leaves open between its last time and the contact is asked of the exact predicates.
 
 mod advance;
@@ -33,6 +33,7 @@ mod motion;
 mod pair;
 mod polygon;
 mod response;
+mod support;
 pub mod time_of_impact;
 
 pub use closest_points::ClosestPoints;

@@ -14,7 +14,7 @@
 //! # What it does not promise
 //! That no other point is closer by more than a bound known beforehand: thin triangles and nearly parallel edges leave
 //! equations of bad condition. Whoever needs a bound takes it from a direction `d`: the distance is at least the
-//! least of `d . P_i / |d|`, whatever `d` is (`advance`).
+//! least of `d . P_i / |d|`, whatever `d` is (`support`).
 //!
 //! # Method
 //! The closest point of each edge and the foot of the perpendicular are the candidates \[Ericson05\], and the closest of them wins.
@@ -31,7 +31,7 @@ pub(super) const ROUNDING: f64 = 20.0 * f64::EPSILON;
 const CORRECTIONS: usize = 2;
 
 /// Four edges and a normal.
-const MOST_DIRECTIONS: usize = 5;
+pub(super) const MOST_DIRECTIONS: usize = 5;
 
 /// Parameters of the corners of a triangle (or segment), and of a parallelogram.
 const TRIANGLE: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
@@ -117,8 +117,9 @@ impl<const K: usize> Polygon<K> {
         if K == 2 { 1.0 } else { self.frame.map_or(0.0, |f| f.across / f.skew.hypot(f.across)) }
     }
 
-    /// The closest point, and directions along which the polygon is likely to be away from the origin.
-    pub(super) fn closest(&self) -> (Spot, impl Iterator<Item = DVec3> + use<K>) {
+    /// The closest point, and directions along which the polygon is likely to be away from the origin: that of each edge, and the
+    /// normal.
+    pub(super) fn closest(&self) -> (Spot, [Option<DVec3>; MOST_DIRECTIONS]) {
         let mut directions = [None; MOST_DIRECTIONS];
         let mut best: Option<Spot> = None;
         let edges = if K == 2 { 1 } else { K };
@@ -135,7 +136,7 @@ impl<const K: usize> Polygon<K> {
             Some(foot) if foot.distance < best.distance => foot,
             _ => best,
         };
-        (best, directions.into_iter().flatten())
+        (best, directions)
     }
 
     /// The longer of `A` and `B`.

@@ -7,7 +7,7 @@
 //!    turned against their relative velocity at the contact, whose part along it is at least [`STEEP`] of the whole;
 //! 2. otherwise (coplanar or tangential motion, a face of no area, parallel edges, resting primitives) the direction along which
 //!    they were last proven to be apart, which advancement leaves behind: it is perpendicular to the vertex or edge, or to the face or
-//!    both edges, that is met;
+//!    both edges, that is met; and if it is about that normal (tangential motion), the normal, on the same side;
 //! 3. if they touch or as good as touch at time 0, the normal of the face, ... after all, on the side of the first primitive if
 //!    rounding leaves one;
 //! 4. from closest point to closest point, if rounding leaves a distance;
@@ -15,8 +15,7 @@
 //! 6. across the longer edge, and finally the first axis.
 //!
 //! # What it promises
-//! A unit vector up to 4u for every input, and one that turns with the primitives up to rounding, except in the last case. In case 2 the
-//! primitives are on its two sides at the beginning of the bracket, proven.
+//! A unit vector up to 4u for every input, and one that turns with the primitives up to rounding, except in the last case.
 
 use glam::DVec3;
 
@@ -33,6 +32,10 @@ const STEEP: f64 = 1.0 / (1 << 20) as f64;
 /// such a normal fewer than 22 of its 52 bits.
 const THIN: f64 = 1.0 / (1 << 30) as f64;
 
+/// Cosine of the angle to the normal above which the direction of the last separation means that normal. Advancement finds
+/// directions across the plane or in it, so any value well inside (0, 1) tells them apart.
+const TANGENTIAL: f64 = 0.5;
+
 /// The unit vector from the origin to the polygon at the time to which it advanced: the normal of a contact up to its sign.
 pub(super) fn normal<const K: usize>(motion: &Motion<K>, reached: &Advance, closest: &Spot) -> DVec3 {
     let polygon = Polygon::new(motion.at(reached.time));
@@ -45,7 +48,11 @@ pub(super) fn normal<const K: usize>(motion: &Motion<K>, reached: &Advance, clos
         }
     }
     if let Some(direction) = reached.direction {
-        return direction;
+        return match across {
+            Some(across) if across.dot(direction) > TANGENTIAL => across,
+            Some(across) if across.dot(direction) < -TANGENTIAL => -across,
+            _ => direction,
+        };
     }
     if let Some(across) = across {
         return if across.dot(closest.place) < 0.0 { -across } else { across };

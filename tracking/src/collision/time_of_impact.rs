@@ -25,11 +25,12 @@
 //! # Cost
 //! At most [`MOST_DECISIONS`] exact decisions.
 
-use super::advance::{Advance, advance, nearness};
+use super::advance::{Advance, advance};
 use super::error::{check_finite, require};
 use super::motion::Motion;
 use super::pair::{EDGE_EDGE, Pair, VERTEX_FACE, VERTEX_SEGMENT};
 use super::response::{normal, outward};
+use super::support::Place;
 use super::{CollisionError, coordinates};
 use welter_predicates::{Point, ccd};
 
@@ -179,14 +180,14 @@ fn first_contact<const D: usize, const P: usize, const K: usize>(
     if motion.boxes_apart(0.0) {
         return Ok(None);
     }
-    let reached = advance(&motion, 0.0, MOST_STEPS);
+    let reached = advance(&motion, 0.0, 0.0, MOST_STEPS);
     if reached.time > 1.0 {
         return Ok(None);
     }
     let mut referee = Referee { during, decisions: 0 };
     let Some(time) = referee.bracket(reached.time, parameters.width) else { return Ok(None) };
     let reached = Advance { time: time[0], ..reached };
-    let (closest, _) = nearness(&motion, time[0]);
+    let closest = Place::new(&motion, time[0]).closest;
     let normal = outward(pair, normal(&motion, &reached, &closest));
     Ok(Some(Impact {
         time,
