@@ -67,6 +67,30 @@ impl Moving {
         (0..3).map(largest).fold(Rational::new(), |sum, x| sum + x.square())
     }
 
+    /// Proves that the polygon meets the origin at some time of `[from, to]`: it changes sides once, and the origin is on the inner side of
+    /// all its edges throughout. False if this does not prove it.
+    #[must_use]
+    pub fn meets(&self, from: &Rational, to: &Rational) -> bool {
+        let [p, q] = [self.at(from), self.at(to)];
+        let corners = p.len();
+        if corners == 2 {
+            let side = |c: &[Vector]| cross(&c[0], &c[1])[2].clone();
+            let between = [(&p[0], &p[1]), (&p[0], &q[1]), (&q[0], &p[1]), (&q[0], &q[1])];
+            return opposite(&side(&p), &side(&q)) && between.iter().all(|(a, b)| dot(a, b) < 0);
+        }
+        let side = |c: &[Vector]| dot(&cross(&c[0], &c[1]), &c[corners - 1]);
+        opposite(&side(&p), &side(&q))
+            && (0..3).any(|k| {
+                let products = (0..corners).flat_map(|i| {
+                    let j = (i + 1) % corners;
+                    let mixed = cross(&p[i], &q[j])[k].clone() + &cross(&q[i], &p[j])[k];
+                    [cross(&p[i], &p[j])[k].clone(), mixed, cross(&q[i], &q[j])[k].clone()]
+                });
+                let signs: Vec<_> = products.map(|x| x.cmp0()).collect();
+                signs[0].is_ne() && signs.iter().all(|&s| s == signs[0])
+            })
+    }
+
     /// Proves that the polygon is farther than `distance` from the origin at all times of `[from, to]`: true if proven, false if it is not
     /// so at some time, nothing if neither was found.
     #[must_use]
@@ -123,6 +147,17 @@ fn dot(a: &Vector, b: &Vector) -> Rational {
     (0..3).fold(Rational::new(), |sum, k| sum + Rational::from(&a[k] * &b[k]))
 }
 
+fn cross(a: &Vector, b: &Vector) -> Vector {
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        Rational::from(&a[i] * &b[j]) - Rational::from(&a[j] * &b[i])
+    })
+}
+
+fn opposite(a: &Rational, b: &Rational) -> bool {
+    a.cmp0().is_ne() && a.cmp0() == b.cmp0().reverse()
+}
+
 /// The point of a segment, triangle or parallelogram closest to the origin.
 fn closest(corners: &[Vector]) -> Vector {
     let mut candidates = corners.to_vec();
@@ -171,6 +206,14 @@ mod tests {
         assert_eq!(sinking.distance_squared(&Rational::from((1, 2))), 9);
         let beyond = |d: i32| sinking.stays_beyond(&Rational::from(d), &Rational::new(), &Rational::from(1));
         assert_eq!((beyond(0), beyond(1), beyond(2)), (Some(true), Some(false), Some(false)));
+        let through = from([1.0, 1.0, 5.0], [1.0, 1.0, -5.0]);
+        let meets = |a: (i32, i32), b: (i32, i32)| through.meets(&Rational::from(a), &Rational::from(b));
+        assert!(
+            meets((0, 1), (1, 1))
+                && meets((2, 5), (3, 5))
+                && !meets((3, 5), (1, 1))
+                && !meets((0, 1), (2, 5))
+        );
         // Beside an edge, and beside a corner.
         assert_eq!(from([1.0, -3.0, 4.0], [0.0; 3]).distance_squared(&Rational::new()), 25);
         assert_eq!(from([-1.0, -2.0, 2.0], [0.0; 3]).distance_squared(&Rational::new()), 9);

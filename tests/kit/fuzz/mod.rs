@@ -9,6 +9,7 @@ mod intersections;
 mod meshes;
 mod perturbation;
 mod queries;
+mod time_of_impact;
 
 pub use collisions::{
     check_edge_edge, check_vertex_face, check_vertex_segment, edge_edge_collisions, vertex_face_collisions,
@@ -19,6 +20,7 @@ pub use intersections::{boxes, simplices};
 pub use meshes::{read_obj, read_off, read_ply, read_stl, self_intersecting};
 pub use perturbation::perturbed;
 pub use queries::read_queries;
+pub use time_of_impact::time_of_impact;
 
 /// A fuzz body: takes any bytes, panics if something is wrong.
 pub type Body = fn(&[u8]);
@@ -39,6 +41,7 @@ pub const BODIES: &[(&str, Body)] = &[
     ("simplices", simplices),
     ("vertex_face_collisions", vertex_face_collisions),
     ("vertex_segment_collisions", vertex_segment_collisions),
+    ("time_of_impact", time_of_impact),
 ];
 
 #[cfg(test)]

@@ -57,7 +57,7 @@ fn check(pair: Pair, query: &Query, distance: f64, counts: &mut Counts) {
         let slack = moving.size_squared() * rational(2f64.powi(-88)) * rational(1.000_001);
         let within = beyond <= 0 || beyond.clone().square() <= slack;
         counts.short += u32::from(!within);
-        if !within && approach.steps < 1000 {
+        if !within {
             println!("{approach:?} {} {}", beyond.to_f64(), context());
         }
     }
@@ -80,8 +80,8 @@ fn run(family: Family, count: u64, distances: &[f64]) -> Counts {
 #[test]
 fn random_approaches() {
     let counts = run(Family::Random, 60, &[0.0, 1e-6, 0.05, 0.3, 1.0]);
-    assert!(counts.approaches > 500 && counts.short == 0, "{counts:?}");
-    assert!(counts.most_steps < 100, "{counts:?}");
+    assert!(counts.approaches > 300 && counts.short == 0, "{counts:?}");
+    assert!(counts.most_steps < 20, "{counts:?}");
 }
 
 #[test]
