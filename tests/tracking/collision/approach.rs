@@ -3,6 +3,7 @@
 use super::pairs::{Family, PAIRS, Pair, Query};
 use rug::Rational;
 use welter_kit::exact::moving::rational;
+use welter_tracking::collision::{MinimumSeparationParameters, minimum_separation};
 
 /// Times at which the exact distance is sampled.
 const SAMPLES: u32 = 16;
@@ -103,4 +104,45 @@ fn approaches_of_fast_and_thin_primitives() {
         let counts = run(family, 40, &[0.0, 1e-12, 1e-3, 0.1]);
         assert!(counts.approaches > 50 && counts.short == 0, "{counts:?}");
     }
+}
+
+/// A vertex that sinks from 3 to 1 above a face is at a distance of 2 in the middle of the step, whatever the unit.
+#[test]
+fn every_unit() {
+    let largest = 2f64.powi(1021);
+    for unit in [1.0, 1e200, 1e-200, 1e-300, largest, f64::from_bits(1), f64::from_bits(9)] {
+        let face = [[-4.0, -4.0, 0.0], [4.0, -4.0, 0.0], [0.0, 4.0, 0.0]];
+        let v = |z: f64| [[0.0, 0.0, z], face[0], face[1], face[2]].map(|p| p.map(|x| x * unit));
+        let query = [v(3.0), v(1.0)];
+        let approach = Pair::VertexFace.approach(&query, 2.0 * unit).unwrap().unwrap();
+        assert!(0.499_999_999 < approach.time && approach.time <= 0.5, "{unit:e} {approach:?}");
+        assert_eq!(approach.normal, [0.0, 0.0, 1.0], "{unit:e}");
+        assert_eq!(
+            Pair::VertexFace.approach(&query, 0.999 * unit).unwrap().is_some(),
+            unit <= f64::from_bits(9)
+        );
+        assert_eq!(Pair::VertexFace.approach(&query, f64::MAX).unwrap().unwrap().time, 0.0);
+        check(Pair::VertexFace, &query, 2.0 * unit, &mut Counts::default());
+    }
+}
+
+/// Without steps to take, the answer is early but never late, and tells how near they came.
+#[test]
+fn steps_used_up() {
+    // The face turns under the vertex, which grazes it in the middle of the step.
+    let t0 = [[-1.0, 0.0, 0.0], [-4.0, -4.0, -4.0], [4.0, -4.0, 4.0], [0.0, 4.0, 0.0]];
+    let t1 = [[1.0, 0.0, 0.0], [-4.0, -4.0, 4.0], [4.0, -4.0, -4.0], [0.0, 4.0, 0.0]];
+    let moving = Pair::VertexFace.moving(&[t0, t1]);
+    let mut before = 0.0;
+    for most_steps in [0, 1, 2, 4, 8, 16, 32] {
+        let parameters = MinimumSeparationParameters { distance: 1e-9, most_steps };
+        let found = minimum_separation::vertex_face(t0, t1, &parameters).unwrap().unwrap();
+        assert!(found.steps <= most_steps && before <= found.time && found.time < 0.5, "{found:?}");
+        let exact = moving.distance_squared(&rational(found.time));
+        assert!(rational(found.distance[0]).square() <= exact, "{found:?}");
+        assert!(exact <= rational(found.distance[1]).square(), "{found:?}");
+        assert!(found.distance[0] > 1e-9, "{found:?}");
+        before = found.time;
+    }
+    assert!(before > 0.499, "{before}");
 }

@@ -66,13 +66,7 @@ fn check_response(
     assert!(weights.iter().all(|w| *w >= 0), "{:?} {}", impact.weights, context());
     let (first, second) = weights.split_at(pair.first());
     for primitive in [first, second] {
-        assert_eq!(
-            Rational::from(primitive.iter().sum::<Rational>()),
-            1,
-            "{:?} {}",
-            impact.weights,
-            context()
-        );
+        assert_eq!(primitive.iter().sum::<Rational>(), 1, "{:?} {}", impact.weights, context());
     }
     let length: f64 = impact.normal.iter().map(|x| x * x).sum::<f64>().sqrt();
     assert!((length - 1.0).abs() < 1e-15, "{:?} {}", impact.normal, context());
@@ -90,19 +84,16 @@ fn check_response(
 
 /// The square of the distance of the two points with these weights.
 fn gap_squared(pair: Pair, query: &Query, weights: &[Rational], time: &Rational) -> Rational {
-    let mut squared = Rational::new();
     let dimensions = if pair == Pair::VertexSegment { 2 } else { 3 };
-    for k in 0..dimensions {
-        let mut gap = Rational::new();
-        for (i, weight) in weights.iter().enumerate().take(pair.vertices()) {
+    let gap = |k: usize| {
+        let term = |(i, weight): (usize, &Rational)| {
             let [p, q] = [0, 1].map(|t| rational(query[t][i][k]));
             let place = Rational::from(&q - &p) * time + p;
-            let term = place * weight;
-            gap += if i < pair.first() { term } else { -term };
-        }
-        squared += gap.square();
-    }
-    squared
+            if i < pair.first() { place * weight } else { -place * weight }
+        };
+        weights.iter().enumerate().map(term).fold(Rational::new(), |sum, x| sum + x)
+    };
+    (0..dimensions).map(gap).fold(Rational::new(), |sum, x| sum + x.square())
 }
 
 fn run(family: Family, count: u64, widths: &[f64]) -> Counts {

@@ -143,10 +143,6 @@ impl Pair {
         }
     }
 
-    pub(super) fn vertices(self) -> usize {
-        if self == Self::VertexSegment { 3 } else { 4 }
-    }
-
     /// How many vertices the first primitive has.
     pub(super) fn first(self) -> usize {
         if self == Self::EdgeEdge { 2 } else { 1 }

@@ -114,7 +114,11 @@ impl<const K: usize> Polygon<K> {
 
     /// The sine of the angle between `A` and `B`; one for a segment.
     pub(super) fn sine(&self) -> f64 {
-        if K == 2 { 1.0 } else { self.frame.map_or(0.0, |f| f.across / f.skew.hypot(f.across)) }
+        if K == 2 {
+            1.0
+        } else {
+            self.frame.map_or(0.0, |f| f.across / length(DVec3::new(f.skew, f.across, 0.0)))
+        }
     }
 
     /// The closest point, and directions along which the polygon is likely to be away from the origin: that of each edge, and the

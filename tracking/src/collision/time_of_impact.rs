@@ -18,7 +18,7 @@
 //!
 //! # Method
 //! Conservative advancement in rounded arithmetic, with a proven bound (`advance`), ends at `lo` just before the contact. One exact decision
-//! finds the contact in `[lo, lo + width]`: the usual case. If it is not there (a tangential contact, a speed near zero, a width near the
+//! finds the contact in `[lo, lo + width]`: the usual case, and the only one among random queries. If it is not there (a tangential contact, a speed near zero, a width near the
 //! resolution), an exact decision tells whether there is one at all, further ones search with strides that grow by 2^8,
 //! and bisection narrows what they find: of the interval, then, where that does not end, of the ordered `f64`.
 //!
@@ -41,7 +41,8 @@ pub const MOST_DECISIONS: u32 = 1 + 2 + 7 + MOST_HALVINGS + 62;
 /// Halvings of an interval of time; what is left is below 2^-64, so only brackets next to 0 go on.
 const MOST_HALVINGS: u32 = 64;
 
-/// Steps of advancement: a tangential contact halves the time that is left with each, and the distance needs 2^-44.
+/// Steps of advancement: a tangential contact halves the time that is left with each, until the distance, its square, is not known to
+/// be positive any more; 30 steps, and as many to spare.
 const MOST_STEPS: u32 = 64;
 
 /// What is asked of a time of impact.
@@ -266,4 +267,53 @@ fn is_wider(lo: f64, hi: f64, width: f64) -> bool {
     // What the subtraction rounded away, exactly, since hi >= lo >= 0 [Dekker71].
     let rest = (hi - difference) - lo;
     lo.next_up() < hi && (difference > width || (difference == width && rest > 0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Searches of every width for a contact at every kind of time, from every kind of time before it.
+    #[test]
+    fn brackets_take_a_bounded_number_of_decisions() {
+        let tiny = f64::from_bits(1);
+        let mut times = vec![0.0, tiny, 3.0 * tiny, f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0, 1.0];
+        times.extend((1..200).map(|i| 1.0 / f64::from(i)));
+        times.extend((1..107).map(|i| libm::scalbn(0.7, -10 * i)));
+        let mut most = 0;
+        for &contact in &times {
+            let before =
+                [0.0, tiny, 1e-300, 1e-9, 0.3, 0.5 * contact, contact * (1.0 - 1e-9), contact.next_down()];
+            for free in before.into_iter().filter(|&t| 0.0 <= t && (t < contact || t == 0.0)) {
+                for width in [0.0, tiny, 1e-300, 1e-17, f64::EPSILON, 1e-12, 0.3, 1.0] {
+                    let during = |[from, to]: [f64; 2]| from <= contact && contact <= to;
+                    let mut referee = Referee { during, decisions: 0 };
+                    let [lo, hi] = referee.bracket(free, width).expect("there is a contact");
+                    let found = format!("{lo:e} {hi:e} {contact:e} {free:e} {width:e}");
+                    if contact == 0.0 {
+                        assert_eq!([lo, hi], [0.0, 0.0], "{found}");
+                    } else {
+                        assert!(free <= lo && lo < contact && contact <= hi, "{found}");
+                        assert!(!is_wider(lo, hi, width), "{found}");
+                    }
+                    most = most.max(referee.decisions);
+                }
+            }
+        }
+        assert!((100..=MOST_DECISIONS).contains(&most), "{most}");
+        let mut referee = Referee { during: |_| false, decisions: 0 };
+        assert_eq!((referee.bracket(0.0, 0.0), referee.decisions), (None, 3));
+    }
+
+    #[test]
+    fn widths_are_compared_without_rounding() {
+        // 1 - 2^-60 is rounded to 1 by the subtraction, but is less than it.
+        let small = libm::scalbn(1.0, -60);
+        assert!(!is_wider(small, 1.0, 1.0));
+        assert!(is_wider(small, 1.0, 1.0 - f64::EPSILON));
+        // The difference 1 - 2^-54 - 2^-108 is rounded to 1 - 2^-53 or 1, and exceeds the former.
+        let odd = libm::scalbn(1.0, -54) + libm::scalbn(1.0, -106);
+        assert!(is_wider(odd, 1.0, 1.0 - f64::EPSILON / 2.0));
+        assert!(!is_wider(0.5, 0.5f64.next_up(), 0.0) && is_wider(0.5, 0.5f64.next_up().next_up(), 0.0));
+    }
 }
