@@ -71,21 +71,32 @@ fn check_response(
     let length: f64 = impact.normal.iter().map(|x| x * x).sum::<f64>().sqrt();
     assert!((length - 1.0).abs() < 1e-15, "{:?} {}", impact.normal, context());
 
-    // Distance of the points at lo and hi: at most so many ways, plus 2^-44 of the size. In squares: d <= a + b follows from
-    // d^2 <= a^2 + b^2, and is followed by d^2 <= 2 a^2 + 2 b^2.
-    let way = moving.speed_squared() * (rational(hi) - rational(lo)).square();
-    let rounding = moving.size_squared() * rational(2f64.powi(-88));
-    for (time, ways) in [(lo, 1), (hi, 4)] {
-        let apart = gap_squared(pair, query, &weights, &rational(time));
-        let bound = way.clone() * Rational::from(2 * ways) + rounding.clone() * Rational::from(2);
-        assert!(apart <= bound, "{} > {} {}", apart.to_f64(), bound.to_f64(), context());
+    // Distance of the points at lo and hi, in units of the size: at most once and twice the way, plus 2^-44.
+    let size = moving.size_squared();
+    if size == 0 {
+        return;
+    }
+    let in_sizes = |squared: Rational| (squared / &size).to_f64().sqrt();
+    let way = in_sizes(moving.speed_squared() * (rational(hi) - rational(lo)).square());
+    for (time, ways) in [(lo, 1.0), (hi, 2.0)] {
+        let apart = in_sizes(squared(&gap(pair, query, &weights, &rational(time))));
+        let bound = (ways * way + 2f64.powi(-44)) * (1.0 + 1e-12);
+        assert!(apart <= bound, "{apart:e} > {bound:e} {}", context());
+    }
+    // They come together: the relative velocity is against the normal, or as good as across it.
+    if hi > 0.0 {
+        let [at_0, at_1] = [0, 1].map(|t| gap(pair, query, &weights, &Rational::from(t)));
+        let along = |k: usize| Rational::from(&at_1[k] - &at_0[k]) * rational(impact.normal[k]);
+        let speed = (0..impact.normal.len()).map(along).fold(Rational::new(), |sum, x| sum + x);
+        let leaves = speed > 0 && in_sizes(speed.square()) > 1e-5;
+        assert!(!leaves, "{:?} {}", impact.normal, context());
     }
 }
 
-/// The square of the distance of the two points with these weights.
-fn gap_squared(pair: Pair, query: &Query, weights: &[Rational], time: &Rational) -> Rational {
+/// The vector from the point of the second primitive with these weights to that of the first.
+fn gap(pair: Pair, query: &Query, weights: &[Rational], time: &Rational) -> Vec<Rational> {
     let dimensions = if pair == Pair::VertexSegment { 2 } else { 3 };
-    let gap = |k: usize| {
+    let coordinate = |k: usize| {
         let term = |(i, weight): (usize, &Rational)| {
             let [p, q] = [0, 1].map(|t| rational(query[t][i][k]));
             let place = Rational::from(&q - &p) * time + p;
@@ -93,7 +104,11 @@ fn gap_squared(pair: Pair, query: &Query, weights: &[Rational], time: &Rational)
         };
         weights.iter().enumerate().map(term).fold(Rational::new(), |sum, x| sum + x)
     };
-    (0..dimensions).map(gap).fold(Rational::new(), |sum, x| sum + x.square())
+    (0..dimensions).map(coordinate).collect()
+}
+
+fn squared(vector: &[Rational]) -> Rational {
+    vector.iter().fold(Rational::new(), |sum, x| sum + Rational::from(x.square_ref()))
 }
 
 fn run(family: Family, count: u64, widths: &[f64]) -> Counts {
