@@ -1,11 +1,11 @@
-//! Benchmark: times of impact and first approaches on random queries, with the share that needed more than one exact decision, beside
-//! the plain decision and one `orient3d`.
+//! Benchmark: times of impact and first approaches on random queries, with the share that needed more than
+//! one exact decision, beside the plain decision and one `orient3d`.
 //!
 //! ```text
 //! cargo bench -p welter-benches --bench time_of_impact
 //! ```
-//! Times are nanoseconds a query: means over all batches of a set, of each the best of [`RUNS`] passes, so that other programs on the
-//! machine disturb little.
+//! Times are nanoseconds a query: means over all batches of a set, of each the best of [`RUNS`] passes, so
+//! that other programs on the machine disturb little.
 
 #![allow(clippy::print_stdout)] // a report is what a benchmark is for
 
@@ -73,7 +73,8 @@ macro_rules! row {
         let more = set.iter().filter_map(impact).filter(|i| i.decisions > 1).count();
         let steps: u32 = set.iter().filter_map(approach).map(|a| a.steps).sum();
         println!(
-            "{:12} {:5} decision {:8.0}   impact {:8.0}   approach {:8.0}   decided exactly {:5.2} %   more than once for the impact {:5.2} %   steps {:.1}",
+            "{:11} {:4} decision {:7.0}   impact {:7.0}   approach {:7.0}   decided exactly {:5.2} %   \
+             more than once for the impact {:5.2} %   steps {:.1}",
             stringify!($name),
             if $hit { "hit" } else { "miss" },
             nanoseconds(&set, |q| ccd::$name(q[0], q[1])),

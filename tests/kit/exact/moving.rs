@@ -1,9 +1,10 @@
 //! The distance of two primitives in linear motion, in rational numbers: [`Moving`].
 //!
-//! The primitives' difference is a convex polygon (segment, triangle, parallelogram) whose corners move linearly. At a rational time its
-//! closest point to the origin is a corner, the foot of the perpendicular on an edge, or that on its plane: all are tried. If
-//! that point is `p`, every point of the polygon is beyond the plane through `p` across `p`, so `p` is a direction that proves how far
-//! away the polygon is, at that time and for some time around it. [`Moving::stays_beyond`] puts such proofs together.
+//! The primitives' difference is a convex polygon (segment, triangle, parallelogram) whose corners move
+//! linearly. At a rational time its closest point to the origin is a corner, the foot of the perpendicular on
+//! an edge, or that on its plane: all are tried. If that point is `p`, every point of the polygon is beyond
+//! the plane through `p` across `p`, so `p` is a direction that proves how far away the polygon is, at that
+//! time and for some time around it. [`Moving::stays_beyond`] puts such proofs together.
 
 use rug::Rational;
 
@@ -67,8 +68,8 @@ impl Moving {
         (0..3).map(largest).fold(Rational::new(), |sum, x| sum + x.square())
     }
 
-    /// Proves that the polygon meets the origin at some time of `[from, to]`: it changes sides once, and the origin is on the inner side of
-    /// all its edges throughout. False if this does not prove it.
+    /// Proves that the polygon meets the origin at some time of `[from, to]`: it changes sides once, and the
+    /// origin is on the inner side of all its edges throughout. False if this does not prove it.
     #[must_use]
     pub fn meets(&self, from: &Rational, to: &Rational) -> bool {
         let [p, q] = [self.at(from), self.at(to)];
@@ -91,8 +92,8 @@ impl Moving {
             })
     }
 
-    /// Proves that the polygon is farther than `distance` from the origin at all times of `[from, to]`: true if proven, false if it is not
-    /// so at some time, nothing if neither was found.
+    /// Proves that the polygon is farther than `distance` from the origin at all times of `[from, to]`: true
+    /// if proven, false if it is not so at some time, nothing if neither was found.
     #[must_use]
     pub fn stays_beyond(&self, distance: &Rational, from: &Rational, to: &Rational) -> Option<bool> {
         let limit = Rational::from(distance.square_ref());

@@ -106,7 +106,8 @@ fn approaches_of_fast_and_thin_primitives() {
     }
 }
 
-/// A vertex that sinks from 3 to 1 above a face is at a distance of 2 in the middle of the step, whatever the unit.
+/// A vertex that sinks from 3 to 1 above a face is at a distance of 2 in the middle of the step, whatever the
+/// unit.
 #[test]
 fn every_unit() {
     let largest = 2f64.powi(1021);

@@ -156,7 +156,8 @@ pub(super) enum Family {
     Random,
     /// Integers up to 1, 2 or 4 in magnitude, a third of them flattened to a plane or a line.
     Grid,
-    /// Any kind of the kit, for both ends of the step together: all exponents, subnormal, flat up to a few ulp, ...
+    /// Any kind of the kit, for both ends of the step together: all exponents, subnormal, flat up to a few
+    /// ulp, ...
     Any,
     /// Small primitives that fly at each other fast.
     Fast,

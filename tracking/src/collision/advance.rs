@@ -1,31 +1,32 @@
 //! Conservative advancement: how long a moving polygon stays away from the origin.
 //!
 //! # What it promises
-//! [`advance`] returns a time before which the polygon is farther than `distance` from the origin, proven: at no time before it,
-//! nor at it unless it is 0, is the exact distance of the exact motion `distance` or less.
+//! [`advance`] returns a time before which the polygon is farther than `distance` from the origin, proven: at
+//! no time before it, nor at it unless it is 0, is the exact distance of the exact motion `distance` or less.
 //!
 //! # What it does not promise
-//! To get as near as the slack to the distance. It gives up after a number of steps, which a polygon that turns while it
-//! stays near may use up, and where no direction that it tries proves a step.
+//! To get as near as the slack to the distance. It gives up after a number of steps, which a polygon that
+//! turns while it stays near may use up, and where no direction that it tries proves a step.
 //!
 //! # Method
-//! Conservative advancement \[Mirtich96\]. From a time at which a direction holds the polygon away, it does so up to the first time at which
-//! a corner comes too near along it: a motion without turning ends in one step. Where that is short, because the polygon turns, a
-//! step of Newton's method on the distance tells where it will be too near; a little before that place, or else at parts of the way to
-//! it, the direction that belongs to the same feature is computed, and the direction that turns from the old to the new one tried. So the distance
-//! that is left shrinks quadratically in the end. `support` holds the proofs.
+//! Conservative advancement \[Mirtich96\]. From a time at which a direction holds the polygon away, it does
+//! so up to the first time at which a corner comes too near along it: a motion without turning ends in one
+//! step. Where that is short, because the polygon turns, a step of Newton's method on the distance tells
+//! where it will be too near; a little before that place, or else at parts of the way to it, the direction
+//! that belongs to the same feature is computed, and the direction that turns from the old to the new one
+//! tried. So the distance that is left shrinks quadratically in the end. `support` holds the proofs.
 
 use glam::DVec3;
 
 use super::motion::Motion;
 use super::support::{Place, Support};
 
-/// How near is near enough, relative to the size of the motion: 2^-44, eight times the error of a distance, so that the
-/// distance is known to three bits where a search ends.
+/// How near is near enough, relative to the size of the motion: 2^-44, eight times the error of a distance,
+/// so that the distance is known to three bits where a search ends.
 pub(super) const SLACK: f64 = f64::EPSILON * 256.0;
 
-/// Parts of Newton's step that are tried: nearly all of it, which succeeds in the end; a bit less, since the distance may fall faster than
-/// in proportion; and what is left when it is far too long.
+/// Parts of Newton's step that are tried: nearly all of it, which succeeds in the end; a bit less, since the
+/// distance may fall faster than in proportion; and what is left when it is far too long.
 const PARTS: [f64; 4] = [1.0 - 1.0 / (1 << 20) as f64, 31.0 / 32.0, 0.5, 0.125];
 
 /// The same for a step to the end of time, which is tried as a whole.

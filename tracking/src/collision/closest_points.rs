@@ -1,15 +1,17 @@
 //! The closest points of two primitives at rest, with proven bounds of their distance: [`ClosestPoints`].
 //!
 //! # What it promises
-//! * `distance[0] <= distance of the primitives <= distance of the two points <= distance[1]`, in exact arithmetic, the points
-//!   being those that the weights say.
+//! * `distance[0] <= distance of the primitives <= distance of the two points <= distance[1]`, in exact
+//!   arithmetic, the points being those that the weights say.
 //! * Weights are not negative and sum to one over each primitive, without rounding.
-//! * No overflow, no underflow: computed in units of the largest coordinate difference. Multiplying all coordinates by a power of two
-//!   multiplies the distances by it, up to the last bit, and leaves the weights as they are.
+//! * No overflow, no underflow: computed in units of the largest coordinate difference. Multiplying all
+//!   coordinates by a power of two multiplies the distances by it, up to the last bit, and leaves the weights
+//!   as they are.
 //!
 //! # What it does not promise
-//! A bound of `distance[1] - distance[0]` known beforehand. With `r` the norm of the vector of the largest coordinate differences
-//! between the primitives, it was below 2^-44 `r` in all that tests tried, thin triangles and nearly parallel edges included.
+//! A bound of `distance[1] - distance[0]` known beforehand. With `r` the norm of the vector of the largest
+//! coordinate differences between the primitives, it was below 2^-44 `r` in all that tests tried, thin
+//! triangles and nearly parallel edges included.
 //!
 //! # Method
 //! [`polygon`](super)'s candidates, and for the lower bound its directions. Complexity: constant.

@@ -1,25 +1,28 @@
 //! When two moving primitives are first within a distance of each other: [`Approach`].
 //!
 //! # What it computes
-//! A time up to which they are farther apart, at which they are about that near, with the closest points and a normal there.
+//! A time up to which they are farther apart, at which they are about that near, with the closest points and
+//! a normal there.
 //!
 //! # What it promises
-//! * Never a miss: if the exact distance is `distance` or less at some time of the step, an approach is returned, and its time is not after
-//!   the first such time. `None` is a proof that they stay farther apart.
-//! * False alarms are bounded: at the time of the approach their exact distance is between the two bounds that it tells. With `r`
-//!   the norm of the vector of the largest coordinate differences between the primitives during the step, the upper one is at
-//!   most `distance + 2^-44 r` up to its last bits, but for what is said below.
+//! * Never a miss: if the exact distance is `distance` or less at some time of the step, an approach is
+//!   returned, and its time is not after the first such time. `None` is a proof that they stay farther apart.
+//! * False alarms are bounded: at the time of the approach their exact distance is between the two bounds
+//!   that it tells. With `r` the norm of the vector of the largest coordinate differences between the
+//!   primitives during the step, the upper one is at most `distance + 2^-44 r` up to its last bits, but for
+//!   what is said below.
 //! * For a distance of 0, an approach is returned if and only if there is a contact, exactly.
 //! * All of this at every scale: nothing overflows or underflows.
 //!
 //! # What it does not promise
-//! That 2^-44 `r` is reached in every case: where the primitives turn against each other while they stay hardly farther apart than the distance,
-//! steps get short, and with bad condition of the closest points ([`closest_points`](super::closest_points)) no direction might
-//! prove a step. Then the approach tells how near they came. Tests found no such case.
+//! That 2^-44 `r` is reached in every case: where the primitives turn against each other while they stay
+//! hardly farther apart than the distance, steps get short, and with bad condition of the closest points
+//! ([`closest_points`](super::closest_points)) no direction might prove a step. Then the approach tells how
+//! near they came. Tests found no such case.
 //!
 //! # Method
-//! Conservative advancement, with a proven bound in rounded arithmetic (`advance`); for a distance of 0, exact contact first.
-//! Cost: a few steps in general, at most the number that the parameters allow.
+//! Conservative advancement, with a proven bound in rounded arithmetic (`advance`); for a distance of 0,
+//! exact contact first. Cost: a few steps in general, at most the number that the parameters allow.
 
 use super::advance::{SLACK, advance};
 use super::error::{check_finite, require};
@@ -35,8 +38,8 @@ use welter_predicates::{Point, ccd};
 pub struct MinimumSeparationParameters {
     /// The distance to be kept, in the unit of the coordinates; not negative. Default: 0, contact itself.
     pub distance: f64,
-    /// The most steps of advancement. Default: 1000, many times the 62 that the hardest query of the tests took, among them thin
-    /// triangles, fast flights and grazing turns.
+    /// The most steps of advancement. Default: 1000, many times the 62 that the hardest query of the tests
+    /// took, among them thin triangles, fast flights and grazing turns.
     pub most_steps: u32,
 }
 
@@ -60,12 +63,14 @@ impl MinimumSeparationParameters {
 /// The first approach of two primitives of `D` dimensions with `P` vertices together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach<const D: usize, const P: usize> {
-    /// They are farther apart than the distance at all times before; it is not after the first time at which they are not.
+    /// They are farther apart than the distance at all times before; it is not after the first time at which
+    /// they are not.
     pub time: f64,
-    /// Bounds of their exact distance at that time. The upper one is infinite if the distance is beyond the range of `f64`.
+    /// Bounds of their exact distance at that time. The upper one is infinite if the distance is beyond the
+    /// range of `f64`.
     pub distance: [f64; 2],
-    /// The weight of each vertex in the point of its primitive that is closest to the other at that time: not negative, with sum one
-    /// over each primitive.
+    /// The weight of each vertex in the point of its primitive that is closest to the other at that time: not
+    /// negative, with sum one over each primitive.
     pub weights: [f64; P],
     /// Unit vector from the second primitive to the first, chosen as that of an [`Impact`](super::Impact).
     pub normal: [f64; D],
@@ -81,7 +86,8 @@ pub struct Approach<const D: usize, const P: usize> {
 /// use welter_tracking::collision::{MinimumSeparationParameters, minimum_separation::vertex_face};
 /// let face = [[-4.0, -4.0, 0.0], [4.0, -4.0, 0.0], [0.0, 4.0, 0.0]];
 /// let v = |z| [[0.0, 0.0, z], face[0], face[1], face[2]];
-/// let within = |distance| vertex_face(v(3.0), v(1.0), &MinimumSeparationParameters { distance, ..Default::default() });
+/// let parameters = |distance| MinimumSeparationParameters { distance, ..Default::default() };
+/// let within = |distance| vertex_face(v(3.0), v(1.0), &parameters(distance));
 /// let approach = within(2.0)?.expect("it comes near");
 /// assert!(0.499_999 < approach.time && approach.time <= 0.5);
 /// assert_eq!(approach.normal, [0.0, 0.0, 1.0]);
@@ -124,7 +130,8 @@ pub fn edge_edge(
     first_approach(&EDGE_EDGE, [&t0, &t1], parameters, || ccd::edge_edge(t0, t1))
 }
 
-/// When the moving vertex is first within a distance of the moving segment of the plane; `None` if it stays farther away.
+/// When the moving vertex is first within a distance of the moving segment of the plane; `None` if it stays
+/// farther away.
 ///
 /// `t0` and `t1` are the places of `v, s0, s1` at the beginning and at the end of the step.
 ///
@@ -133,7 +140,8 @@ pub fn edge_edge(
 /// let s = [[-1.0, 0.0], [1.0, 0.0]];
 /// let parameters = MinimumSeparationParameters { distance: 1.0, ..Default::default() };
 /// // It flies past the end of the segment, at a distance of one.
-/// let approach = vertex_segment_2d([[2.0, 1.0], s[0], s[1]], [[2.0, -1.0], s[0], s[1]], &parameters)?.expect("it comes near");
+/// let step = [[2.0, 1.0], [2.0, -1.0]].map(|v| [v, s[0], s[1]]);
+/// let approach = vertex_segment_2d(step[0], step[1], &parameters)?.expect("it comes near");
 /// assert!(approach.time <= 0.5 && approach.distance[0] <= 1.0 + 1e-12);
 /// # Ok::<(), welter_tracking::collision::CollisionError>(())
 /// ```

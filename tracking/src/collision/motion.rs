@@ -1,11 +1,13 @@
 //! The relative motion of two primitives, scaled to size one: [`Motion`].
 //!
 //! # What it promises
-//! * The corners are differences of vertices, each rounded once and then multiplied by one power of two that brings the largest
-//!   coordinate to [1/2, 1): relative error `u` a coordinate, or 2^-1074 absolute. Nothing overflows. So the motion
-//!   is the same, bit for bit, when all coordinates are multiplied by a power of two that leaves them representable.
-//! * A corner computed at a time errs by at most `8u` of the largest magnitude in its coordinate: one rounding of the difference of
-//!   vertices (u), of that of the ends (4u with theirs), of the product (2u) and of the sum (u).
+//! * The corners are differences of vertices, each rounded once and then multiplied by one power of two that
+//!   brings the largest coordinate to [1/2, 1): relative error `u` a coordinate, or 2^-1074 absolute. Nothing
+//!   overflows. So the motion is the same, bit for bit, when all coordinates are multiplied by a power of two
+//!   that leaves them representable.
+//! * A corner computed at a time errs by at most `8u` of the largest magnitude in its coordinate: one
+//!   rounding of the difference of vertices (u), of that of the ends (4u with theirs), of the product (2u)
+//!   and of the sum (u).
 
 use glam::DVec3;
 
@@ -33,7 +35,8 @@ impl<const K: usize> Motion<K> {
         if plain.as_flattened().iter().all(|p| p.is_finite()) {
             Self::scaled(plain, 0)
         } else {
-            // The largest is above 2^1023 then; what halving takes from subnormal numbers does not count beside it.
+            // The largest is above 2^1023 then; what halving takes from subnormal numbers does not count
+            // beside it.
             Self::scaled(differences(pair, [t0, t1], 0.5), 1)
         }
     }
@@ -60,7 +63,8 @@ impl<const K: usize> Motion<K> {
         std::array::from_fn(|i| p[i] + (q[i] - p[i]) * time)
     }
 
-    /// A length of the caller in the unit of the motion: not below the exact one, and infinite where that is large.
+    /// A length of the caller in the unit of the motion: not below the exact one, and infinite where that is
+    /// large.
     pub(super) fn scaled_up(&self, length: f64) -> f64 {
         let scaled = libm::scalbn(length, -self.exponent);
         // Exact for a normal number.

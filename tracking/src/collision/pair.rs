@@ -2,8 +2,8 @@
 
 /// Two primitives, given by `P` vertices, and the polygon of `K` corners that their differences are.
 ///
-/// The polygon is a segment, a triangle or a parallelogram, `P_0 + s (P_1 - P_0) + t (P_last - P_0)`; the primitives touch
-/// where it holds the origin, and their distance is its distance from the origin.
+/// The polygon is a segment, a triangle or a parallelogram, `P_0 + s (P_1 - P_0) + t (P_last - P_0)`; the
+/// primitives touch where it holds the origin, and their distance is its distance from the origin.
 pub(super) struct Pair<const P: usize, const K: usize> {
     /// What the vertices are called.
     pub(super) names: [&'static str; P],

@@ -1,33 +1,36 @@
-//! The point of a convex polygon closest to the origin, and directions that hold the polygon away from it: [`Polygon`].
+//! The point of a convex polygon closest to the origin, and directions that hold the polygon away from it:
+//! [`Polygon`].
 //!
 //! # What it computes
-//! The polygon is `P_0 + s A + t B` for `A = P_1 - P_0`, `B = P_last - P_0` and `(s, t)` in a segment, triangle or square: the
-//! difference of a vertex and a segment, of a vertex and a face, or of two edges.
+//! The polygon is `P_0 + s A + t B` for `A = P_1 - P_0`, `B = P_last - P_0` and `(s, t)` in a segment,
+//! triangle or square: the difference of a vertex and a segment, of a vertex and a face, or of two edges.
 //!
 //! # What it promises
-//! * The parameters are multiples of 2^-52 within their domain, so the weights of the vertices are not negative and sum to one
-//!   without rounding.
-//! * The computed distance of that point errs by at most [`ROUNDING`] of the size `r` of the motion, the norm of
-//!   [`Motion::maxima`](super::motion::Motion): `24u` from the corners, whose errors of `8u` have weights that sum to
-//!   at most 3 in magnitude; `10u` from `P_0 + s A + t B` in `f64`; `3u` from the norm.
+//! * The parameters are multiples of 2^-52 within their domain, so the weights of the vertices are not
+//!   negative and sum to one without rounding.
+//! * The computed distance of that point errs by at most [`ROUNDING`] of the size `r` of the motion, the norm
+//!   of [`Motion::maxima`](super::motion::Motion): `24u` from the corners, whose errors of `8u` have weights
+//!   that sum to at most 3 in magnitude; `10u` from `P_0 + s A + t B` in `f64`; `3u` from the norm.
 //!
 //! # What it does not promise
-//! That no other point is closer by more than a bound known beforehand: thin triangles and nearly parallel edges leave
-//! equations of bad condition. Whoever needs a bound takes it from a direction `d`: the distance is at least the
-//! least of `d . P_i / |d|`, whatever `d` is (`support`).
+//! That no other point is closer by more than a bound known beforehand: thin triangles and nearly parallel
+//! edges leave equations of bad condition. Whoever needs a bound takes it from a direction `d`: the distance
+//! is at least the least of `d . P_i / |d|`, whatever `d` is (`support`).
 //!
 //! # Method
-//! The closest point of each edge and the foot of the perpendicular are the candidates \[Ericson05\], and the closest of them wins.
-//! The foot is found in an orthonormal frame of the polygon and then twice corrected from where it was found: the correction
-//! is proportional to what is left, so that a frame turned by an angle `e` leaves `e^2` of the height, and not `e` of the size.
-//! Likely directions are the normal and, for each edge, the vector to its closest point, made perpendicular to it.
+//! The closest point of each edge and the foot of the perpendicular are the candidates \[Ericson05\], and the
+//! closest of them wins. The foot is found in an orthonormal frame of the polygon and then twice corrected
+//! from where it was found: the correction is proportional to what is left, so that a frame turned by an
+//! angle `e` leaves `e^2` of the height, and not `e` of the size. Likely directions are the normal and, for
+//! each edge, the vector to its closest point, made perpendicular to it.
 
 use glam::DVec3;
 
 /// Bound of the error of a computed distance, relative to the size of the motion: 37u, rounded up to 40u.
 pub(super) const ROUNDING: f64 = 20.0 * f64::EPSILON;
 
-/// Corrections of the foot of the perpendicular. The first leaves the square of the frame's error, the second is spare.
+/// Corrections of the foot of the perpendicular. The first leaves the square of the frame's error, the second
+/// is spare.
 const CORRECTIONS: usize = 2;
 
 /// Four edges and a normal.
@@ -101,7 +104,8 @@ impl<const K: usize> Polygon<K> {
         Self { corners, along, frame }
     }
 
-    /// The unit normal, `A x B`; for a segment of the plane its normal there. None where rounding leaves no direction.
+    /// The unit normal, `A x B`; for a segment of the plane its normal there. None where rounding leaves no
+    /// direction.
     pub(super) fn normal(&self) -> Option<DVec3> {
         if K == 2 {
             let along = unit(self.along[0])?;
@@ -121,8 +125,8 @@ impl<const K: usize> Polygon<K> {
         }
     }
 
-    /// The closest point, and directions along which the polygon is likely to be away from the origin: that of each edge, and the
-    /// normal.
+    /// The closest point, and directions along which the polygon is likely to be away from the origin: that
+    /// of each edge, and the normal.
     pub(super) fn closest(&self) -> (Spot, [Option<DVec3>; MOST_DIRECTIONS]) {
         let mut directions = [None; MOST_DIRECTIONS];
         let mut best: Option<Spot> = None;
@@ -149,7 +153,8 @@ impl<const K: usize> Polygon<K> {
         if length(b) > length(a) { b } else { a }
     }
 
-    /// The closest point of edge `i`, and the vector to it made perpendicular to the edge if it is inside of it.
+    /// The closest point of edge `i`, and the vector to it made perpendicular to the edge if it is inside of
+    /// it.
     fn closest_on_edge(&self, i: usize) -> (Spot, DVec3) {
         let j = (i + 1) % K;
         let (from, to) = (self.corners[i], self.corners[j]);

@@ -1,24 +1,27 @@
-//! Proofs that a moving polygon stays away from the origin for a while: [`Support`], along a direction at rest, and
-//! [`Place::stays_beyond`], along one that turns.
+//! Proofs that a moving polygon stays away from the origin for a while: [`Support`], along a direction at
+//! rest, and [`Place::stays_beyond`], along one that turns.
 //!
 //! # Method
-//! For any direction `d`, a polygon with `d . P_i > D |d|` for all corners is farther than `D` from the origin.
+//! For any direction `d`, a polygon with `d . P_i > D |d|` for all corners is farther than `D` from the
+//! origin.
 //!
 //! *At rest*: `d . P_i(t)` is linear in time, so an interval at whose ends this holds is proven.
 //!
-//! *Turning* from `d` at time `a` to `e` at time `b`, linearly: `d(t) . P_i(t)` is a quadratic, which exceeds `D max(|d|, |e|)` if its three
-//! Bernstein coefficients `d . P_i(a)`, `(d . P_i(b) + e . P_i(a)) / 2` and `e . P_i(b)` do; and `|d(t)| <= max(|d|, |e|)`.
+//! *Turning* from `d` at time `a` to `e` at time `b`, linearly: `d(t) . P_i(t)` is a quadratic, which exceeds
+//! `D max(|d|, |e|)` if its three Bernstein coefficients `d . P_i(a)`, `(d . P_i(b) + e . P_i(a)) / 2` and `e
+//! . P_i(b)` do; and `|d(t)| <= max(|d|, |e|)`.
 //!
 //! How a direction was found plays no role in the proofs.
 //!
 //! # Bounds
-//! Let `S = sum |d_k| m_k`, `m_k` the largest magnitude of coordinate `k` of a corner. The rounded product of `d` with a corner at an end
-//! of the step errs by at most `5u S` (one rounding of the corner, one of the product, two of the sums), and
-//! `A_i + t (B_i - A_i)`, made of two of them, by `5u S` more: 2u of the difference, which is at most `2 S`, 2u of the product, u of the sum:
-//! 10u, for which [`AT_REST`] takes 14u. The product with a corner computed at a time, whose coordinates err by `8u m_k`, errs by
-//! at most `11u S`, the mean of two by 12u: [`TURNING`] takes 20u. The spare parts and [`NORM`], 1 + 16u, cover the
-//! at most eight roundings of `D |d|` and of the bound itself. [`UNDERFLOW`] is more than all that underflow may take away:
-//! products of numbers below 2 lose 2^-1075 each.
+//! Let `S = sum |d_k| m_k`, `m_k` the largest magnitude of coordinate `k` of a corner. The rounded product of
+//! `d` with a corner at an end of the step errs by at most `5u S` (one rounding of the corner, one of the
+//! product, two of the sums), and `A_i + t (B_i - A_i)`, made of two of them, by `5u S` more: 2u of the
+//! difference, which is at most `2 S`, 2u of the product, u of the sum: 10u, for which [`AT_REST`] takes 14u.
+//! The product with a corner computed at a time, whose coordinates err by `8u m_k`, errs by at most `11u S`,
+//! the mean of two by 12u: [`TURNING`] takes 20u. The spare parts and [`NORM`], 1 + 16u, cover the at most
+//! eight roundings of `D |d|` and of the bound itself. [`UNDERFLOW`] is more than all that underflow may take
+//! away: products of numbers below 2 lose 2^-1075 each.
 
 use glam::DVec3;
 
@@ -70,8 +73,8 @@ impl<const K: usize> Support<K> {
         if away > 0.0 { away / (self.norm * NORM) } else { 0.0 }
     }
 
-    /// A time up to which, and at which, the polygon is proven to be farther than `distance`, from `time` on: `time` itself if nothing is
-    /// proven, and infinity if it is so until the end.
+    /// A time up to which, and at which, the polygon is proven to be farther than `distance`, from `time` on:
+    /// `time` itself if nothing is proven, and infinity if it is so until the end.
     pub(super) fn safe_until(&self, time: f64, distance: f64) -> f64 {
         let limit = distance * self.norm * NORM + self.error;
         let exceeds = |time: f64| (0..K).all(|i| self.at(i, time) > limit);
@@ -119,8 +122,8 @@ impl<const K: usize> Place<K> {
         self.closest.distance + ROUNDING * length(motion.maxima)
     }
 
-    /// A direction, that at the later of the two times, whose turning proves that the polygon is farther than `distance` from here to
-    /// `there`, ends included.
+    /// A direction, that at the later of the two times, whose turning proves that the polygon is farther than
+    /// `distance` from here to `there`, ends included.
     pub(super) fn stays_beyond(&self, there: &Self, motion: &Motion<K>, distance: f64) -> Option<DVec3> {
         self.directions.iter().zip(&there.directions).find_map(|(&d, &e)| {
             let (d, e) = (self.towards(d?), there.towards(e?));

@@ -1,26 +1,31 @@
 //! When two moving primitives first touch: [`Impact`].
 //!
 //! # What it computes
-//! A bracket `[lo, hi]` of the first time of contact, and at `lo` the closest points and a normal for the response.
+//! A bracket `[lo, hi]` of the first time of contact, and at `lo` the closest points and a normal for the
+//! response.
 //!
 //! # What it promises
 //! * An impact is returned if and only if there is a contact, exactly (as `welter_predicates::ccd` decides).
-//! * `lo < first contact <= hi`, or `lo = hi = 0` if the primitives touch at time 0. So the places at `lo` are free of contact, and
-//!   so is all the motion before.
+//! * `lo < first contact <= hi`, or `lo = hi = 0` if the primitives touch at time 0. So the places at `lo`
+//!   are free of contact, and so is all the motion before.
 //! * `hi - lo` is at most the width asked for, or else `lo` and `hi` are adjacent `f64`.
-//! * With `V` the largest speed of a vertex of one primitive relative to one of the other and `r` the norm of the vector of the largest
-//!   coordinate differences between them during the step, the points that the weights say are at `lo` within `V (hi - lo)` plus the
-//!   uncertainty of [`closest_points`](super::closest_points) (2^-44 `r`) of each other, at `hi` within twice that.
-//! * All of this holds for tangential, coplanar and collinear motion, degenerate primitives, subnormal numbers and 1e308.
+//! * With `V` the largest speed of a vertex of one primitive relative to one of the other and `r` the norm of
+//!   the vector of the largest coordinate differences between them during the step, the points that the
+//!   weights say are at `lo` within `V (hi - lo)` plus the uncertainty of
+//!   [`closest_points`](super::closest_points) (2^-44 `r`) of each other, at `hi` within twice that.
+//! * All of this holds for tangential, coplanar and collinear motion, degenerate primitives, subnormal
+//!   numbers and 1e308.
 //!
 //! # What it does not promise
 //! The smallest bracket, and that `hi` is free of contact or in contact.
 //!
 //! # Method
-//! Conservative advancement in rounded arithmetic, with a proven bound (`advance`), ends at `lo` just before the contact. One exact decision
-//! finds the contact in `[lo, lo + width]`: the usual case, and the only one among random queries. If it is not there (a tangential contact, a speed near zero, a width near the
-//! resolution), an exact decision tells whether there is one at all, further ones search with strides that grow by 2^8,
-//! and bisection narrows what they find: of the interval, then, where that does not end, of the ordered `f64`.
+//! Conservative advancement in rounded arithmetic, with a proven bound (`advance`), ends at `lo` just before
+//! the contact. One exact decision finds the contact in `[lo, lo + width]`: the usual case, and the only one
+//! among random queries. If it is not there (a tangential contact, a speed near zero, a width near the
+//! resolution), an exact decision tells whether there is one at all, further ones search with strides that
+//! grow by 2^8, and bisection narrows what they find: of the interval, then, where that does not end, of the
+//! ordered `f64`.
 //!
 //! # Cost
 //! At most [`MOST_DECISIONS`] exact decisions.
@@ -34,25 +39,26 @@ use super::support::Place;
 use super::{CollisionError, coordinates};
 use welter_predicates::{Point, ccd};
 
-/// The most exact decisions for one query: one at time 0, two for the first stride and what is after it, 7 further strides of
-/// at least 2^-52 that grow by 2^8, 64 halvings of the interval, 62 of the numbers between 0 and 1 in their order.
+/// The most exact decisions for one query: one at time 0, two for the first stride and what is after it, 7
+/// further strides of at least 2^-52 that grow by 2^8, 64 halvings of the interval, 62 of the numbers between
+/// 0 and 1 in their order.
 pub const MOST_DECISIONS: u32 = 1 + 2 + 7 + MOST_HALVINGS + 62;
 
 /// Halvings of an interval of time; what is left is below 2^-64, so only brackets next to 0 go on.
 const MOST_HALVINGS: u32 = 64;
 
-/// Steps of advancement: a tangential contact halves the time that is left with each, until the distance, its square, is not known to
-/// be positive any more; 30 steps, and as many to spare.
+/// Steps of advancement: a tangential contact halves the time that is left with each, until the distance, its
+/// square, is below 2^-48; 24 steps, and more than as many to spare.
 const MOST_STEPS: u32 = 64;
 
 /// What is asked of a time of impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeOfImpactParameters {
-    /// Width of the bracket, as part of the step, from 0 to 1. Where it is less than the distance of `f64` there, as 0 is, the bracket
-    /// has adjacent ends.
+    /// Width of the bracket, as part of the step, from 0 to 1. Where it is less than the distance of `f64`
+    /// there, as 0 is, the bracket has adjacent ends.
     ///
-    /// Default: 2^-40, some hundred times the error of times in rounded arithmetic, so that most queries need one exact
-    /// decision; and less than a micrometre of a flight to the moon.
+    /// Default: 2^-40, some fifty times the error of times in rounded arithmetic, so that most queries need
+    /// one exact decision; and a third of a millimetre of a flight to the moon.
     pub width: f64,
 }
 
@@ -77,13 +83,14 @@ impl TimeOfImpactParameters {
 pub struct Impact<const D: usize, const P: usize> {
     /// `[lo, hi]`: no contact before `lo`, nor at it unless both are 0; contact between them.
     pub time: [f64; 2],
-    /// The weight of each vertex in the point of its primitive that is closest to the other at `lo`: not negative, with sum one over
-    /// each primitive.
+    /// The weight of each vertex in the point of its primitive that is closest to the other at `lo`: not
+    /// negative, with sum one over each primitive.
     pub weights: [f64; P],
-    /// Unit vector from the second primitive to the first (from face to vertex, from edge b to edge a), against their relative
-    /// velocity if they come together across it. The order of choices for degenerate input: the normal of the face or of both
-    /// edges; for coplanar motion, parallel edges, faces of no area and tangential contact, the direction along which
-    /// they were last apart; if they touch at time 0, the normal, the direction of the relative velocity reversed, any.
+    /// Unit vector from the second primitive to the first (from face to vertex, from edge b to edge a),
+    /// against their relative velocity if they come together across it. The order of choices for degenerate
+    /// input: the normal of the face or of both edges; for coplanar motion, parallel edges, faces of no area
+    /// and tangential contact, the direction along which they were last apart; if they touch at time 0, the
+    /// normal, the direction of the relative velocity reversed, any.
     pub normal: [f64; D],
     /// Exact decisions that the bracket took.
     pub decisions: u32,
@@ -168,7 +175,8 @@ pub fn vertex_segment_2d(
     first_contact(&VERTEX_SEGMENT, [&t0, &t1], parameters, |part| ccd::vertex_segment_2d_during(t0, t1, part))
 }
 
-/// The stages: advance, bracket, respond. `during` decides exactly whether there is contact within a part of the step.
+/// The stages: advance, bracket, respond. `during` decides exactly whether there is contact within a part of
+/// the step.
 fn first_contact<const D: usize, const P: usize, const K: usize>(
     pair: &Pair<P, K>,
     ends: [&[[f64; D]; P]; 2],
@@ -210,7 +218,8 @@ impl<F: Fn([f64; 2]) -> bool> Referee<F> {
         (self.during)([from, to])
     }
 
-    /// The bracket of the first contact, given that there is none at times up to `free`, except perhaps at `free` if that is 0.
+    /// The bracket of the first contact, given that there is none at times up to `free`, except perhaps at
+    /// `free` if that is 0.
     fn bracket(&mut self, free: f64, width: f64) -> Option<[f64; 2]> {
         if free == 0.0 && self.contact(0.0, 0.0) {
             return Some([0.0, 0.0]);
@@ -235,7 +244,8 @@ impl<F: Fn([f64; 2]) -> bool> Referee<F> {
         Some([lo, hi])
     }
 
-    /// Widens its stride until there is contact within it: two times, of which the contact is after the first and not after the second.
+    /// Widens its stride until there is contact within it: two times, of which the contact is after the first
+    /// and not after the second.
     fn stride(&mut self, free: f64, width: f64) -> Option<(f64, f64)> {
         /// Strides of this and more need no more than eight.
         const SHORTEST: f64 = f64::EPSILON;
