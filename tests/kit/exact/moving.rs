@@ -23,8 +23,9 @@ pub const EDGE_EDGE: &[(usize, usize)] = &[(0, 2), (1, 2), (1, 3), (0, 3)];
 /// As [`VERTEX_FACE`].
 pub const VERTEX_SEGMENT: &[(usize, usize)] = &[(1, 0), (2, 0)];
 
-/// How deep [`Moving::stays_beyond`] cuts time; beyond that it gives up.
-const DEEPEST: u32 = 120;
+/// How many parts of time [`Moving::stays_beyond`] cuts in two before it gives up: a polygon that turns while it
+/// grazes the distance would need millions.
+const MOST_PARTS: usize = 300;
 
 impl Moving {
     /// The motion of the differences `corners` of the vertices.
@@ -97,8 +98,9 @@ impl Moving {
     #[must_use]
     pub fn stays_beyond(&self, distance: &Rational, from: &Rational, to: &Rational) -> Option<bool> {
         let limit = Rational::from(distance.square_ref());
-        let mut parts = vec![(from.clone(), to.clone(), 0)];
-        while let Some((a, b, depth)) = parts.pop() {
+        let mut parts = vec![(from.clone(), to.clone())];
+        let mut tried = 0;
+        while let Some((a, b)) = parts.pop() {
             let middle = Rational::from(&a + &b) / 2;
             let ends = [self.at(&a), self.at(&b)];
             let mut proven = false;
@@ -119,11 +121,12 @@ impl Moving {
                 }
             }
             if !proven {
-                if depth == DEEPEST {
+                tried += 1;
+                if tried == MOST_PARTS {
                     return None;
                 }
-                parts.push((middle.clone(), b, depth + 1));
-                parts.push((a, middle, depth + 1));
+                parts.push((middle.clone(), b));
+                parts.push((a, middle));
             }
         }
         Some(true)
