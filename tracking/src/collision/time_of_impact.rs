@@ -11,8 +11,8 @@
 //! * `hi - lo` is at most the width asked for, or else `lo` and `hi` are adjacent `f64`.
 //! * With `V` the largest speed of a vertex of one primitive relative to one of the other and `r` the norm of
 //!   the vector of the largest coordinate differences between them during the step, the points that the
-//!   weights say are at `lo` within `V (hi - lo)` plus the uncertainty of
-//!   [`closest_points`](super::closest_points) (2^-44 `r`) of each other, at `hi` within twice that.
+//!   weights say are at `lo` within `V (hi - lo)` plus rounding of each other, at `hi` within `2 V (hi - lo)`
+//!   plus rounding, which was below 2^-44 `r` in all tests.
 //! * All of this holds for tangential, coplanar and collinear motion, degenerate primitives, subnormal
 //!   numbers and 1e308.
 //!
