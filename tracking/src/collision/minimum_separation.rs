@@ -15,12 +15,12 @@
 //! * All of this at every scale: nothing overflows or underflows.
 //!
 //! # What it does not promise
-//! That 2^-44 `r` is reached in every case. Where a vertex or edge is met at a distance much smaller than `r`,
-//! the lower bound is of bad condition ([`closest_points`](super::closest_points)), no direction may prove a
-//! further step, and the alarm is early: tests with a distance of 1e-9 on small grids saw this about once in
-//! two hundred approaches, at distances up to 3.2e-9. Where the primitives turn against each other while they
-//! stay hardly farther apart than the distance, steps get short and may be used up: seen once there. The approach
-//! tells in both cases how near they came.
+//! That 2^-44 `r` is reached in every case. Where a vertex or edge is met at a distance much smaller than
+//! `r`, the lower bound is of bad condition ([`closest_points`](super::closest_points)), no direction may
+//! prove a further step, and the alarm is early: tests with a distance of 1e-9 on small grids saw this about
+//! once in a hundred approaches, at distances up to 2.0e-9. Where the primitives turn against each other
+//! while they stay hardly farther apart than the distance, steps get short and may be used up: seen once
+//! there, at 3.2e-9. The approach tells in both cases how near they came.
 //!
 //! # Method
 //! Conservative advancement, with a proven bound in rounded arithmetic (`advance`); for a distance of 0,
