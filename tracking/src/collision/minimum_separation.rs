@@ -40,8 +40,8 @@ use welter_predicates::{Point, ccd};
 pub struct MinimumSeparationParameters {
     /// The distance to be kept, in the unit of the coordinates; not negative. Default: 0, contact itself.
     pub distance: f64,
-    /// The most steps of advancement. Default: 1000, many times the 121 that the hardest query of the tests
-    /// took, among them thin triangles, fast flights and grazing turns.
+    /// The most steps of advancement. Default: 1000, many times the 121 that all but one query of the
+    /// tests took at most, among them thin triangles and fast flights.
     pub most_steps: u32,
 }
 
