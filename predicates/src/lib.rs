@@ -35,6 +35,7 @@
 //! | inside a circle, a sphere? | [`incircle`], [`insphere`] |
 //! | how do segments, triangles, boxes, tetrahedra meet? | [`intersection`] |
 //! | the same without ties | [`sos`] |
+//! | has a small linear system one solution, with which signs? | [`linear`] |
 //! | which stage settled a sign, how often? | [`staged`], [`stats`] |
 //!
 //! # How
@@ -61,6 +62,7 @@ mod finite;
 mod incircle;
 mod insphere;
 pub mod intersection;
+pub mod linear;
 mod orient2d;
 mod orient3d;
 mod orient4d;

@@ -9,6 +9,7 @@ mod ccd_oracle;
 mod family;
 mod intersection;
 mod laws;
+mod linear;
 mod oracle;
 mod parity;
 mod perturbation;

@@ -10,6 +10,7 @@
 //! Complexity: schoolbook, proportional to the product of the lengths.
 
 use super::fixed_point::decompose;
+use super::scaled::Scaled;
 use crate::Sign;
 
 /// A number in an arena. Zero has no limbs and is not negative.
@@ -41,6 +42,17 @@ impl Int {
     pub(crate) fn abs(self) -> Self {
         Self { negative: false, ..self }
     }
+}
+
+/// A number to divide by, prepared: see [`Arena::quotient`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Divisor {
+    /// The number without its factors of two.
+    odd: Int,
+    /// How many factors of two.
+    zeros: usize,
+    /// The inverse of the lowest limb of `odd`, modulo 2^64.
+    inverse: u64,
 }
 
 /// A stack of limbs.
@@ -166,6 +178,71 @@ impl<'b> Arena<'b> {
         self.push(a.negative, if a.len > 0 { a.len + 1 } else { 0 })
     }
 
+    /// Prepares to divide by `a`, which is not zero.
+    pub(crate) fn divisor(&mut self, a: Int) -> Divisor {
+        let limbs = self.magnitude(a);
+        let whole = limbs.iter().position(|&limb| limb != 0).unwrap_or(0);
+        let zeros = 64 * whole + limbs.get(whole).map_or(0, |limb| limb.trailing_zeros() as usize);
+        let odd = self.shifted_right(a, zeros);
+        // Newton's iteration doubles the correct bits: 5, 10, 20, 40, 80.
+        let low = self.magnitude(odd).first().copied().unwrap_or(1);
+        let mut inverse = low.wrapping_mul(3) ^ 2;
+        for _ in 0..4 {
+            inverse = inverse.wrapping_mul(2u64.wrapping_sub(low.wrapping_mul(inverse)));
+        }
+        Divisor { odd, zeros, inverse }
+    }
+
+    /// `a / by`, which is known to be an integer: limb by limb from the lowest \[Jebelean93\].
+    pub(crate) fn quotient(&mut self, a: Int, by: &Divisor) -> Int {
+        let rest = self.shifted_right(a, by.zeros);
+        let len = if rest.len > 0 { (rest.len + 1).saturating_sub(by.odd.len) } else { 0 };
+        if len == 0 {
+            return Int::ZERO;
+        }
+        let (used, free) = self.limbs.split_at_mut(rest.start);
+        let (divisor, rest_limbs) = (&used[by.odd.start..by.odd.start + by.odd.len], &mut free[..len]);
+        for i in 0..len {
+            let digit = rest_limbs[i].wrapping_mul(by.inverse);
+            let mut carry = 0u64;
+            for (j, r) in rest_limbs[i..].iter_mut().enumerate() {
+                if j >= divisor.len() && carry == 0 {
+                    break;
+                }
+                let t =
+                    u128::from(digit) * u128::from(divisor.get(j).copied().unwrap_or(0)) + u128::from(carry);
+                let (d, borrow) = r.overflowing_sub(t as u64);
+                *r = d;
+                carry = (t >> 64) as u64 + u64::from(borrow);
+            }
+            rest_limbs[i] = digit;
+        }
+        self.top = rest.start;
+        self.push(rest.negative != by.odd.negative, len)
+    }
+
+    /// `a / 2^bits`, rounded towards zero, in limbs of its own.
+    fn shifted_right(&mut self, a: Int, bits: usize) -> Int {
+        let (whole, part) = (bits / 64, bits % 64);
+        let Some(len) = a.len.checked_sub(whole) else { return Int::ZERO };
+        let from = a.start + whole;
+        for i in 0..len {
+            let above = if i + 1 < len { self.limbs[from + i + 1] } else { 0 };
+            let both = u128::from(above) << 64 | u128::from(self.limbs[from + i]);
+            self.limbs[self.top + i] = (both >> part) as u64;
+        }
+        self.push(a.negative, len)
+    }
+
+    /// The leading bits, in units of 1.
+    pub(crate) fn scaled(&self, a: Int) -> Scaled {
+        match *self.magnitude(a) {
+            [] => Scaled::ZERO,
+            [only] => Scaled::of_words(a.negative, only, 0, -64),
+            [.., below, top] => Scaled::of_words(a.negative, top, below, 64 * (a.len as i32 - 2)),
+        }
+    }
+
     fn magnitude(&self, a: Int) -> &[u64] {
         &self.limbs[a.start..a.start + a.len]
     }
@@ -214,4 +291,49 @@ impl<'b> Arena<'b> {
         }
         if len == 0 { Int::ZERO } else { Int { negative, start, len } }
     }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotients_undo_products() {
+        let mut limbs = [0; 4000];
+        let mut arena = Arena::new(&mut limbs);
+        let values = [1.0, -3.0, 6.0, 1e17, -1e40, 2f64.powi(200), 1e300 - 1e284, 2f64.powi(64) - 2048.0];
+        for x in values {
+            for y in values {
+                for z in values {
+                    let mark = arena.mark();
+                    let [a, b, c] = [x, y, z].map(|v| arena.load(v, 0));
+                    // Not a single mantissa: a (b + 1), divided by either factor.
+                    let one = arena.load(1.0, 0);
+                    let more = arena.add(b, one);
+                    let more = arena.mul(more, c);
+                    let product = arena.mul(a, more);
+                    for (by, expected) in [(a, more), (more, a)] {
+                        let by = arena.divisor(by);
+                        let quotient = arena.quotient(product, &by);
+                        let difference = arena.sub(quotient, expected);
+                        assert_eq!(difference.sign(), Sign::Zero, "{x} {y} {z}");
+                        assert_eq!(arena.quotient(Int::ZERO, &by), Int::ZERO);
+                    }
+                    arena.keep(mark, []);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn leading_bits() {
+        let mut limbs = [0; 400];
+        let mut arena = Arena::new(&mut limbs);
+        for x in [0.0, 5.0, -1e19, 1e20, -2f64.powi(700), 1e200] {
+            let a = arena.load(x, 0);
+            assert_eq!(arena.scaled(a).to_f64(), x);
+        }
+    }
+
+    extern crate std;
 }

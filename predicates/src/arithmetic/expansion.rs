@@ -149,6 +149,31 @@ impl<const CAP: usize> Expansion<CAP> {
         result
     }
 
+    /// `a / b`, which is known to be an integer; `a` and `b` are integers, `b` is not zero.
+    ///
+    /// Long division: each step divides the leading parts and takes the quotient, as an integer, times `b` from the rest.
+    /// It is off by less than 2^-50 of itself, so the rest shrinks by that factor, and once the quotient is below
+    /// 2^48, rounding to an integer makes it exact and the rest zero.
+    pub(crate) fn quotient(a: &Self, b: &Self) -> Self {
+        let mut result = Self::ZERO;
+        if a.is_overfull() || b.is_overfull() {
+            result.len = OVERFULL;
+            return result;
+        }
+        let mut rest = *a;
+        let divisor = b.estimate();
+        while !rest.components().is_empty() {
+            let digit = nearest_integer(rest.estimate() / divisor);
+            result = Self::sum(&result, &Expansion::<2>::of_difference(digit, 0.0));
+            rest = Self::sum(&rest, &Self::scaled_by(b, -digit));
+            rest.compress();
+        }
+        if rest.is_overfull() {
+            result.len = OVERFULL;
+        }
+        result
+    }
+
     /// Compresses if there is little room left, or enough components for it to pay.
     #[inline(always)]
     fn shorten(&mut self) {
@@ -185,6 +210,13 @@ impl<const CAP: usize> Expansion<CAP> {
         }
         self.push(running);
     }
+}
+
+/// The nearest integer; one of the two nearest to a half.
+fn nearest_integer(x: f64) -> f64 {
+    /// 2^52: from here on every number is an integer.
+    const INTEGERS: f64 = 4_503_599_627_370_496.0;
+    if x.abs() < INTEGERS { ((x.abs() + INTEGERS) - INTEGERS).copysign(x) } else { x }
 }
 
 /// The components of two expansions in ascending order of magnitude.
@@ -326,6 +358,30 @@ mod tests {
         assert_eq!(three.minus(&three).sign(), None);
         assert_eq!(Expansion::<9>::product(&three, &two).sign(), None);
         assert_eq!(Expansion::<9>::scaled_by(&three, 2.0).sign(), None);
+    }
+
+    #[test]
+    fn quotients_undo_products() {
+        let p = power_of_two;
+        let values = [
+            of(&[1.0]),
+            of(&[-3.0]),
+            of(&[p(60), 1.0]),
+            of(&[p(150), -p(90), 7.0]),
+            of(&[-p(200), p(140) + p(100), p(80), p(40), -1.0]),
+        ];
+        for a in &values {
+            for b in &values {
+                let product = Expansion::<64>::product(a, b);
+                assert_eq!(Expansion::quotient(&product, b).minus(a).sign(), Some(Sign::Zero));
+                assert_eq!(Expansion::quotient(&product, a).minus(b).sign(), Some(Sign::Zero));
+            }
+            assert_eq!(Expansion::quotient(&of(&[]), a).sign(), Some(Sign::Zero));
+        }
+        assert_eq!(
+            Expansion::<1>::quotient(&Expansion::of_difference(1.0, p(60)), &Expansion::ZERO).sign(),
+            None
+        );
     }
 
     #[test]

@@ -8,6 +8,7 @@ pub mod linear;
 mod meeting;
 pub mod moving;
 mod orient;
+pub mod rational;
 mod rounding;
 mod self_intersection;
 

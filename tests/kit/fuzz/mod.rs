@@ -6,6 +6,7 @@
 mod collisions;
 mod determinants;
 mod intersections;
+mod linear;
 mod meshes;
 mod perturbation;
 mod queries;
@@ -17,6 +18,7 @@ pub use collisions::{
 };
 pub use determinants::{in_spheres, orientations};
 pub use intersections::{boxes, simplices};
+pub use linear::{agrees, linear_systems};
 pub use meshes::{read_obj, read_off, read_ply, read_stl, self_intersecting};
 pub use perturbation::perturbed;
 pub use queries::read_queries;
@@ -30,6 +32,7 @@ pub const BODIES: &[(&str, Body)] = &[
     ("boxes", boxes),
     ("edge_edge_collisions", edge_edge_collisions),
     ("in_spheres", in_spheres),
+    ("linear_systems", linear_systems),
     ("orientations", orientations),
     ("perturbed", perturbed),
     ("read_obj", read_obj),

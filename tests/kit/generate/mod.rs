@@ -1,12 +1,14 @@
 //! Generators of hard input: coordinates ([`number`]) and configurations of points ([`Kind`],
-//! [`graded`]) and their motions ([`Movement`]).
+//! [`graded`]) and their motions ([`Movement`]), systems of linear equations ([`system`]).
 
 pub mod graded;
 mod movement;
 pub mod number;
 mod points;
 mod strategy;
+mod systems;
 
 pub use movement::Movement;
 pub use points::Kind;
 pub use strategy::{points, seeded};
+pub use systems::system;
