@@ -16,4 +16,5 @@ mod perturbation;
 mod rates;
 mod regressions;
 mod sos;
+mod spacetime;
 mod values;

@@ -14,6 +14,8 @@
 //! * Motion on other than straight lines, and contact within a distance.
 //! * Where and when: these are constructions, not predicates.
 //!
+//! [`spacetime`] asks the same of another motion, made of flat pieces of space-time.
+//!
 //! # Method
 //! Stages, each of which leaves to the next what it cannot decide:
 //!
@@ -40,6 +42,7 @@ mod planar;
 mod query;
 mod separation;
 mod settle;
+pub mod spacetime;
 mod stage;
 pub mod staged;
 mod subdivision;

@@ -113,7 +113,7 @@ impl<const K: usize, E: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Q
     }
 
     fn is_finite(&self) -> bool {
-        is_finite(self.step)
+        all_finite(&self.step[0], &self.step[1])
     }
 
     /// For coordinates that are zero throughout, or near the ends of the exponent range.
@@ -219,9 +219,29 @@ impl<const K: usize, E: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Q
     }
 }
 
+/// True when the culling stages exclude contact.
+#[inline]
+pub(super) fn never<const K: usize>(
+    t0: &[[f64; 3]; 4],
+    t1: &[[f64; 3]; 4],
+    corners: &[(usize, usize); K],
+) -> bool {
+    culled(t0, t1, corners).is_some() || Corners::new([t0, t1], corners, None).separated_otherwise()
+}
+
+/// True when, along an axis of the plane, the segment is strictly on one side of the vertex at both ends of the step.
+pub(super) fn boxes_apart_in_plane(t0: &[[f64; 2]; 3], t1: &[[f64; 2]; 3]) -> bool {
+    (0..2).any(|k| {
+        let all = |apart: fn(f64, f64) -> bool| {
+            [t0, t1].iter().all(|p| apart(p[1][k], p[0][k]) && apart(p[2][k], p[0][k]))
+        };
+        all(|x, y| x < y) || all(|x, y| x > y)
+    })
+}
+
 /// True when all coordinates are finite.
-pub(super) fn is_finite(step: &Step) -> bool {
-    step.as_flattened().as_flattened().iter().all(|x| x.is_finite())
+pub(super) fn all_finite<const N: usize, const P: usize>(t0: &[[f64; N]; P], t1: &[[f64; N]; P]) -> bool {
+    t0.as_flattened().iter().chain(t1.as_flattened()).all(|x| x.is_finite())
 }
 
 /// The axes of the coordinate plane in which all motion is, given which coordinates are zero throughout; none if it is not, or

@@ -7,6 +7,7 @@
 //! the ray nor the origin; one from `p` to `q` on opposite sides meets the line of the ray once, ahead if
 //! `det(p, q)` has the side of `q`, at the origin if it is zero.
 
+use super::super::settle::{all_finite, boxes_apart_in_plane};
 use super::RootParity;
 use crate::arithmetic::fixed_point::{self, Integers};
 use crate::arithmetic::lattice::Extent;
@@ -31,8 +32,7 @@ use crate::{Point, Sign, filter};
 #[must_use]
 pub fn vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> RootParity {
     let (t0, t1) = (t0.map(Point::coords), t1.map(Point::coords));
-    let is_finite = t0.as_flattened().iter().chain(t1.as_flattened()).all(|x| x.is_finite());
-    if boxes_apart(&t0, &t1) || !is_finite {
+    if boxes_apart_in_plane(&t0, &t1) || !all_finite(&t0, &t1) {
         return RootParity::Even;
     }
     let quadrilateral = [(t0[1], t0[0]), (t0[2], t0[0]), (t1[2], t1[0]), (t1[1], t1[0])];
@@ -52,16 +52,6 @@ pub fn vertex_segment_2d(t0: [impl Point<2>; 3], t1: [impl Point<2>; 3]) -> Root
         }
     }
     if odd { RootParity::Odd } else { RootParity::Even }
-}
-
-/// True when, along an axis, the segment is strictly on one side of the vertex at both ends of the step.
-fn boxes_apart(t0: &[[f64; 2]; 3], t1: &[[f64; 2]; 3]) -> bool {
-    (0..2).any(|k| {
-        let all = |apart: fn(f64, f64) -> bool| {
-            [t0, t1].iter().all(|p| apart(p[1][k], p[0][k]) && apart(p[2][k], p[0][k]))
-        };
-        all(|x, y| x < y) || all(|x, y| x > y)
-    })
 }
 
 /// A corner as the difference of two points.

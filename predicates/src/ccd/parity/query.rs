@@ -1,7 +1,7 @@
 //! The queries in space: [`vertex_face`] and [`edge_edge`].
 
 use super::super::corners::Corners;
-use super::super::settle::{culled, is_finite};
+use super::super::settle::{all_finite, culled};
 use super::super::{EDGE_EDGE, VERTEX_FACE};
 use super::RootParity;
 use super::integers::Given;
@@ -95,7 +95,7 @@ fn parity<const K: usize, const C: usize>(
         return Parity::Even;
     }
     parity_of_step(&image, faces).unwrap_or_else(|| {
-        if !is_finite(&[*t0, *t1]) {
+        if !all_finite(t0, t1) {
             return Parity::Even;
         }
         let points: [[[f64; 3]; 4]; 2] = [*t0, *t1];
