@@ -1,8 +1,10 @@
-//! Benchmark of the exact linear solver and of its stages, beside Cramer's rule, on the same inputs in the same run.
+//! Benchmark of the exact linear solver and of its stages, beside Cramer's rule, on the same inputs in the same
+//! run.
 //!
-//! Prints, for each size and class of input, the nanoseconds a system of each method and the ratio of the solver to filtered
-//! determinants, with the share of the systems that the two filters settle. What a filter leaves goes to the exact
-//! stage of its method. Methods take turns on chunks of the inputs, of which the shortest time over all rounds counts.
+//! Prints, for each size and class of input, the nanoseconds a system of each method and the ratio of the
+//! solver to filtered determinants, with the share of the systems that the two filters settle. What a filter
+//! leaves goes to the exact stage of its method. Methods take turns on chunks of the inputs, of which the
+//! shortest time over all rounds counts.
 //!
 //! `cargo bench -p welter-benches --bench linear [-- FILTER [--quick]]`
 

@@ -250,8 +250,8 @@ fn reports(surface: [[[f64; 3]; 6]; 2], path: [[f64; 3]; 2], names: [u32; 6]) ->
     count
 }
 
-/// A vertex that starts strictly inside a closed surface and ends strictly outside passes through some face; on grids often
-/// through edges and corners only.
+/// A vertex that starts strictly inside a closed surface and ends strictly outside passes through some face; on
+/// grids often through edges and corners only.
 #[test]
 fn no_crack_in_a_moving_surface() {
     let mut through = [0; 9];

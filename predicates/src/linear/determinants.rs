@@ -1,20 +1,23 @@
 //! The same questions answered by determinants: [`solve`] and its filter, [`filtered`].
 //!
 //! # Method
-//! Cramer's rule: `x_j = D_j / D`, where `D_j` is the determinant `D` with column `j` replaced by the right-hand side. All of these are
-//! minors of the matrix with the right-hand side as its last column, and share their minors of lower order, which are expanded along
-//! the last row from the first rows down.
+//! Cramer's rule: `x_j = D_j / D`, where `D_j` is the determinant `D` with column `j` replaced by the
+//! right-hand side. All of these are minors of the matrix with the right-hand side as its last column, and
+//! share their minors of lower order, which are expanded along the last row from the first rows down.
 //!
-//! Rank: if the minor of rows R and columns C is not zero, column `j` is a combination of the columns C exactly if all
-//! minors of R and one row more, C and `j`, are zero. Columns are tried in their order, and the right-hand side after them.
+//! Rank: if the minor of rows R and columns C is not zero, column `j` is a combination of the columns C exactly
+//! if all minors of R and one row more, C and `j`, are zero. Columns are tried in their order, and the
+//! right-hand side after them.
 //!
 //! Nothing is shared with [`super::elimination`] but the integers.
 //!
 //! # Filter
-//! In rounded arithmetic, with the *permanent*, the same sum of the same terms without their signs, computed beside each minor. A term of a minor of order n
-//! passes, order by order, one product and at most k - 1 sums: at most `(n - 1) + n (n - 1) / 2 = 20` roundings, as does a permanent's. The determinant
-//! then errs by at most `20 u / (1 - 20 u)` times the exact permanent, which the rounded one exceeds after division by `(1 - u)^20`; 24 u is used.
-//! Coefficients are zero or from 2^-100 to 2^100 in magnitude: multiples of 2^-152, as their products are multiples of 2^-912, so nothing underflows; nothing overflows.
+//! In rounded arithmetic, with the *permanent*, the same sum of the same terms without their signs, computed
+//! beside each minor. A term of a minor of order n passes, order by order, one product and at most k - 1 sums:
+//! at most `(n - 1) + n (n - 1) / 2 = 20` roundings, as does a permanent's. The determinant then errs by at
+//! most `20 u / (1 - 20 u)` times the exact permanent, which the rounded one exceeds after division by `(1 -
+//! u)^20`; 24 u is used. Coefficients are zero or from 2^-100 to 2^100 in magnitude: multiples of 2^-152, as
+//! their products are multiples of 2^-912, so nothing underflows; nothing overflows.
 
 use super::system::{System, Units};
 use super::{MOST, Outcome};
@@ -33,7 +36,8 @@ fn alternates(order: usize, place: usize) -> bool {
     (order - 1 + place) % 2 == 1
 }
 
-/// The solution by Cramer's rule in rounded arithmetic, as `super::filter` gives it; `None` if a sign is not certain.
+/// The solution by Cramer's rule in rounded arithmetic, as `super::filter` gives it; `None` if a sign is not
+/// certain.
 pub(super) fn filtered<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
     const { assert!(N <= MOST) };
     let in_range = |x: &f64| *x == 0.0 || (SMALLEST..=LARGEST).contains(&x.abs());

@@ -32,7 +32,8 @@ pub(super) trait Domain {
     fn scaled(&self, a: &Self::Number) -> Scaled;
 }
 
-/// Binary digits of a bound of a minor of given order, the sum of `order!` products, in integers below `2^bits`.
+/// Binary digits of a bound of a minor of given order, the sum of `order!` products, in integers below
+/// `2^bits`.
 fn minor_bits(bits: i32, order: usize) -> i32 {
     /// ceil(log2(order!))
     const FACTORIAL_BITS: [i32; 7] = [0, 0, 1, 3, 5, 7, 10];
@@ -41,8 +42,8 @@ fn minor_bits(bits: i32, order: usize) -> i32 {
 
 /// Integers of 128 bits.
 ///
-/// Products are formed modulo 2^128 and multiplied by the inverse of the divisor modulo 2^128 \[Jebelean93\]: only
-/// the quotient, a minor, has to fit, and the factors of two of the divisor beside it.
+/// Products are formed modulo 2^128 and multiplied by the inverse of the divisor modulo 2^128 \[Jebelean93\]:
+/// only the quotient, a minor, has to fit, and the factors of two of the divisor beside it.
 pub(super) struct Machine {
     /// All loaded integers are below 2^bits.
     pub(super) bits: i32,
@@ -125,11 +126,12 @@ impl Domain for Machine {
 /// Expansions.
 pub(super) struct Expansions;
 
-/// Components of an expansion: with 90 bits a coefficient, the largest product has 920 bits, 18 components of 53 bits each. Zeros between
-/// them make it more; what does not fit is left to the next stage.
+/// Components of an expansion: with 90 bits a coefficient, the largest product has 920 bits, 18 components of
+/// 53 bits each. Zeros between them make it more; what does not fit is left to the next stage.
 const COMPONENTS: usize = 48;
 
-/// Bits of the coefficients of which the products of two minors of order five, with ten bits to spare, stay below 2^990.
+/// Bits of the coefficients of which the products of two minors of order five, with ten bits to spare, stay
+/// below 2^990.
 const MOST_EXPANSION_BITS: i32 = 97;
 
 impl Expansions {
@@ -145,8 +147,8 @@ impl Domain for Expansions {
     const ZERO: Self::Number = Expansion::ZERO;
 
     fn load(&mut self, value: f64, shift: i32) -> Self::Number {
-        // In two steps, neither of which leaves the range or loses a bit: the result is an integer below 2^97, and so is
-        // the value times any power of two between 1 and that of the result.
+        // In two steps, neither of which leaves the range or loses a bit: the result is an integer below 2^97,
+        // and so is the value times any power of two between 1 and that of the result.
         let half = shift / 2;
         let scaled = value * power_of_two(half) * power_of_two(shift - half);
         Expansion::sum(&Expansion::<2>::of_difference(scaled, 0.0), &Expansion::<0>::ZERO)

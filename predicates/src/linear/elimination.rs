@@ -1,15 +1,17 @@
 //! Fraction-free Gaussian elimination: [`solve`].
 //!
 //! # Method
-//! Gauss-Jordan elimination on integers \[Bareiss68\]. Step `k` takes a pivot `p` and replaces every other row by
+//! Gauss-Jordan elimination on integers \[Bareiss68\]. Step `k` takes a pivot `p` and replaces every other row
+//! by
 //!
 //! ```text
 //! a_ij  <-  (p a_ij - a_ip p_j) / q        q: the pivot of the step before, 1 at first
 //! ```
 //!
-//! By Sylvester's identity every entry is then a minor of order `k` of the original matrix, so the division leaves no rest, and
-//! the entries of the earlier pivots all equal `p`. In the end the solution is `b_i / p`. A column without a pivot depends on
-//! those before it; a row without one must have a right-hand side of zero, or the system is inconsistent.
+//! By Sylvester's identity every entry is then a minor of order `k` of the original matrix, so the division
+//! leaves no rest, and the entries of the earlier pivots all equal `p`. In the end the solution is `b_i / p`. A
+//! column without a pivot depends on those before it; a row without one must have a right-hand side of zero, or
+//! the system is inconsistent.
 //!
 //! # Invariant
 //! The outcome does not depend on the choice of pivots within a column, and so not on the order of equations.
@@ -18,7 +20,8 @@ use super::domain::Domain;
 use super::system::{System, Units};
 use super::{MOST, Outcome};
 
-/// The first row from `rank` on that has a nonzero entry in `column`; the outer `None` if the domain cannot tell.
+/// The first row from `rank` on that has a nonzero entry in `column`; the outer `None` if the domain cannot
+/// tell.
 fn pivot_row<D: Domain>(
     matrix: &[[D::Number; MOST + 1]; MOST],
     rows: core::ops::Range<usize>,
@@ -37,9 +40,9 @@ fn pivot_row<D: Domain>(
 pub(super) fn solve<D: Domain>(system: &System, units: &Units, domain: &mut D) -> Option<Outcome> {
     let (equations, unknowns) = (system.equations, system.unknowns);
     let mut matrix = [[D::ZERO; MOST + 1]; MOST];
-    for i in 0..equations {
-        for j in 0..=unknowns {
-            matrix[i][j] = domain.load(system.rows[i][j], units.shift(i, j));
+    for (i, (numbers, row)) in matrix.iter_mut().zip(system.equations()).enumerate() {
+        for (j, (number, &value)) in numbers.iter_mut().zip(&row[..=unknowns]).enumerate() {
+            *number = domain.load(value, units.shift(i, j));
         }
     }
     let mut pivot = domain.load(1.0, 0);
@@ -79,10 +82,11 @@ pub(super) fn solve<D: Domain>(system: &System, units: &Units, domain: &mut D) -
     Some(Outcome::Unique(solution))
 }
 
-/// Columns that depend on each other, as few as a free column gives: that column and those pivot columns of which it is a combination.
+/// Columns that depend on each other, as few as a free column gives: that column and those pivot columns of
+/// which it is a combination.
 ///
-/// The steps after the one that found the column free would only have multiplied its entries by nonzero numbers: the row
-/// that they take from the others has a zero there.
+/// The steps after the one that found the column free would only have multiplied its entries by nonzero
+/// numbers: the row that they take from the others has a zero there.
 fn dependency<D: Domain>(
     matrix: &[[D::Number; MOST + 1]; MOST],
     pivots: &[usize],

@@ -1,29 +1,32 @@
 //! The first stage of a square system: an approximate inverse, and a proof that it is good.
 //!
 //! # Method
-//! `R` is an inverse of `A` computed in rounded arithmetic (Gauss-Jordan, partial pivoting); nothing is assumed of
-//! it. Let `y = R b`, rounded; `r = b - A y`; `E = I - R A`. The solution `x` satisfies `x - y = R r + E (x - y)`. If all row sums of `|E|` are
-//! at most `alpha < 1`, then `R A`, and so `A`, is regular \[Rump10\], and with `d_i` above `|(R r)_i|`, `D` the largest `d_i`, and
-//! `e_i` above the sum of row `i` of `|E|`,
+//! `R` is an inverse of `A` computed in rounded arithmetic (Gauss-Jordan, partial pivoting); nothing is assumed
+//! of it. Let `y = R b`, rounded; `r = b - A y`; `E = I - R A`. The solution `x` satisfies
+//! `x - y = R r + E (x - y)`. If all row sums of `|E|` are at most `alpha < 1`, then `R A`, and so `A`, is
+//! regular \[Rump10\], and with `d_i` above `|(R r)_i|`, `D` the largest `d_i`, and `e_i` above the sum of row `i` of `|E|`,
 //!
 //! ```text
 //! |x_i - y_i|  <=  d_i + e_i D / (1 - alpha)  <=  d_i + 2 e_i D        for alpha <= 1/2.
 //! ```
 //!
-//! The stage answers if every bound is at most [`RELATIVE_ERROR`] of `|y_i|`. So zero components, inconsistent and dependent
-//! systems always go on to exact arithmetic.
+//! The stage answers if every bound is at most [`RELATIVE_ERROR`] of `|y_i|`. So zero components, inconsistent
+//! and dependent systems always go on to exact arithmetic.
 //!
 //! # Rounding
-//! A sum of k + 1 terms of which k are products errs by at most `g` times the sum of the terms' magnitudes, `g = (k + 1) u / (1 - (k + 1) u)`, plus
-//! 2^-1075 for each product that underflows. With `m_k` the largest magnitude in row `k` of `A`, row `i` of the rounded `E` errs in each entry by at most
-//! `g (1 + sum_k |R_ik| m_k)`, entry `k` of the rounded `r` by at most `g (|b_k| + m_k sum_j |y_j|)`. Both are added. [`GROWTH`] exceeds
-//! `g` by the roundings of these bounds themselves, all sums of non-negative terms of depth below 30; [`UNDERFLOW`] what may underflow.
+//! A sum of k + 1 terms of which k are products errs by at most `g = (k + 1) u / (1 - (k + 1) u)` times the
+//! sum of the terms' magnitudes, plus 2^-1075 for each product that underflows. With `m_k` the largest
+//! magnitude in row `k` of `A`, row `i` of the rounded `E` errs in each entry by at most
+//! `g (1 + sum_k |R_ik| m_k)`, entry `k` of the rounded `r` by at most `g (|b_k| + m_k sum_j |y_j|)`. Both are added. [`GROWTH`]
+//! exceeds `g` by the roundings of these bounds themselves, all sums of non-negative terms of depth below 30;
+//! [`UNDERFLOW`] what may underflow.
 //!
-//! Coefficients are zero or between 2^-200 and 2^200; if they are not, rows and columns are multiplied by powers of two first.
-//! Overflow makes a bound infinite or NaN, and comparisons with these fail.
+//! Coefficients are zero or between 2^-200 and 2^200; if they are not, rows and columns are multiplied by
+//! powers of two first. Overflow makes a bound infinite or NaN, and comparisons with these fail.
 //!
 //! # Cost
-//! About `2 n^3` additions and multiplications and `n` divisions, no branch that random input mispredicts but the pivots'.
+//! About `2 n^3` additions and multiplications and `n` divisions, no branch that random input mispredicts but
+//! the pivots'.
 
 use crate::arithmetic::scaled::Scaled;
 
@@ -37,10 +40,12 @@ const LARGEST: f64 = f64::from_bits((1023 + 200) << 52);
 /// Larger than the sum of all that underflow may add to a sum of seven terms; a normal number.
 const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52); // 2^-1000
 
-/// 10 u: for six products and one term more, `g` is below 7.01 u; thirty roundings of a bound take less than another u.
+/// 10 u: for six products and one term more, `g` is below 7.01 u; thirty roundings of a bound take less than
+/// another u.
 const GROWTH: f64 = 10.0 * (f64::EPSILON / 2.0);
 
-/// The solution, each component with a relative error of at most [`RELATIVE_ERROR`]; `None` if that is not certain.
+/// The solution, each component with a relative error of at most [`RELATIVE_ERROR`]; `None` if that is not
+/// certain.
 #[inline]
 pub(super) fn solve<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
     let (mut low, mut high) = (LARGEST, 0.0);
@@ -53,7 +58,8 @@ pub(super) fn solve<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[
     if low >= SMALLEST && high <= LARGEST { certified(a, b) } else { rescaled(a, b) }
 }
 
-/// [`solve`] with rows, columns and the right-hand side multiplied by powers of two that bring the largest of each near one.
+/// [`solve`] with rows, columns and the right-hand side multiplied by powers of two that bring the largest of
+/// each near one.
 #[cold]
 fn rescaled<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
     /// The exponent of a magnitude: it is between 2^exponent and 2^(exponent + 1). Finite, not zero.

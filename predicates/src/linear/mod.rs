@@ -9,26 +9,30 @@
 //! ```
 //!
 //! # Promises
-//! * Which of the three outcomes of [`Solution`] holds is exact for all finite coefficients: subnormal, 1e308, mixtures of both.
-//! * Every component of a unique solution has the exact sign: it is zero only if the exact component is. It is within
-//!   [`RELATIVE_ERROR`] of the exact component; beyond the range of `f64` it is the largest finite number or the smallest subnormal one of
-//!   its sign, and a subnormal component may besides be off by the smallest subnormal number.
+//! * Which of the three outcomes of [`Solution`] holds is exact for all finite coefficients: subnormal, 1e308,
+//!   mixtures of both.
+//! * Every component of a unique solution has the exact sign: it is zero only if the exact component is. It is
+//!   within [`RELATIVE_ERROR`] of the exact component; beyond the range of `f64` it is the largest finite
+//!   number or the smallest subnormal one of its sign, and a subnormal component may besides be off by the
+//!   smallest subnormal number.
 //! * [`solvable`] decides exactly whether there is a solution of prescribed signs.
 //! * Outcomes do not depend on the order of equations, nor on factors of two of equations.
-//! * Total, without allocation. A coefficient that is not finite gives [`Solution::Inconsistent`]; [`try_solve`] names it.
+//! * Total, without allocation. A coefficient that is not finite gives [`Solution::Inconsistent`];
+//!   [`try_solve`] names it.
 //!
 //! # Non-promises
 //! * Which of many solutions: an underdetermined system is described, not solved.
 //! * The last bit of a component.
 //!
 //! # Method
-//! \[Brochu12\] solves the systems of collision detection by fraction-free elimination \[Bareiss68\] on expansions, and leaves open a filter that makes it as
-//! fast as determinants. Here, in this order ([`staged`] has each by itself):
+//! \[Brochu12\] solves the systems of collision detection by fraction-free elimination \[Bareiss68\] on
+//! expansions, and leaves open a filter that makes it as fast as determinants. Here, in this order ([`staged`]
+//! has each by itself):
 //!
 //! 1. `filter`: an inverse in rounded arithmetic and a proven bound of the distance to the solution;
 //! 2. elimination in 128-bit integers, for coefficients of few bits;
-//! 3. elimination in integers of any size. Elimination in expansions, where these do not overflow, is slower: see
-//!    `docs/adr/0006-linear-systems.md`.
+//! 3. elimination in integers of any size. Elimination in expansions, where these do not overflow, is slower:
+//!    see `docs/adr/0006-linear-systems.md`.
 //!
 //! `determinants` answers the same by Cramer's rule and bordered minors; tests compare the two.
 
@@ -56,7 +60,8 @@ pub const RELATIVE_ERROR: f64 = filter::RELATIVE_ERROR;
 /// The outcome of a system of linear equations in `N` unknowns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solution<const N: usize> {
-    /// Exactly one solution, with the exact sign of every component; see the [module](self) for the errors of magnitudes.
+    /// Exactly one solution, with the exact sign of every component; see the [module](self) for the errors of
+    /// magnitudes.
     Unique([f64; N]),
     /// No solution.
     Inconsistent,
@@ -64,7 +69,8 @@ pub enum Solution<const N: usize> {
     Underdetermined {
         /// The rank of the matrix.
         rank: usize,
-        /// The columns that depend on those before them, `N - rank` of them: the unknowns that can be chosen freely.
+        /// The columns that depend on those before them, `N - rank` of them: the unknowns that can be chosen
+        /// freely.
         free: [bool; N],
     },
 }
@@ -131,7 +137,8 @@ pub fn solve<const M: usize, const N: usize>(a: &[[f64; N]; M], b: &[f64; M]) ->
 /// [`solve`] for coefficients that may not be finite.
 ///
 /// # Errors
-/// [`NonFinite`] with the first coefficient that is infinite or not a number: `argument` 0 is `a`, whose coefficients are counted row by row; 1 is `b`.
+/// [`NonFinite`] with the first coefficient that is infinite or not a number: `argument` 0 is `a`, whose
+/// coefficients are counted row by row; 1 is `b`.
 ///
 /// ```
 /// use welter_predicates::{NonFinite, linear::try_solve};
@@ -152,10 +159,11 @@ pub fn try_solve<const M: usize, const N: usize>(
     Ok(solve(a, b))
 }
 
-/// Whether `a x = b` has a solution of given signs: `x_i >= 0` for `Positive`, `x_i <= 0` for `Negative`, `x_i = 0` for `Zero`.
+/// Whether `a x = b` has a solution of given signs: `x_i >= 0` for `Positive`, `x_i <= 0` for `Negative`, `x_i
+/// = 0` for `Zero`.
 ///
-/// Exact also where there are infinitely many solutions; false when a coefficient is not finite. With barycentric weights as unknowns this
-/// asks whether two simplices have a common point \[Brochu12\].
+/// Exact also where there are infinitely many solutions; false when a coefficient is not finite. With
+/// barycentric weights as unknowns this asks whether two simplices have a common point \[Brochu12\].
 ///
 /// ```
 /// use welter_predicates::{Sign::Positive, linear::solvable};

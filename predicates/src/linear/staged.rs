@@ -1,14 +1,16 @@
-//! The stages of [`solve`](super::solve) one by one, and Cramer's rule as their twin: for tests and measurements.
+//! The stages of [`solve`](super::solve) one by one, and Cramer's rule as their twin: for tests and
+//! measurements.
 //!
-//! Each gives the same outcome as [`solve`](super::solve), or `None` where it cannot tell; magnitudes of components may differ within
-//! their bound. Which stages there are may change from version to version.
+//! Each gives the same outcome as [`solve`](super::solve), or `None` where it cannot tell; magnitudes of
+//! components may differ within their bound. Which stages there are may change from version to version.
 
 use super::domain::{Expansions, Machine};
 use super::system::{System, Units};
 use super::{Outcome, Solution, all_finite, determinants, elimination, filter, in_integers, oriented, signs};
 use crate::Sign;
 
-/// The filter: rounded arithmetic with a proven bound. Only for as many equations as unknowns, and a solution without zeros.
+/// The filter: rounded arithmetic with a proven bound. Only for as many equations as unknowns, and a solution
+/// without zeros.
 ///
 /// ```
 /// use welter_predicates::linear::{Solution, staged::by_filter};
@@ -50,7 +52,8 @@ pub fn by_machine_integers<const M: usize, const N: usize>(
     elimination::solve(&system, &units, &mut Machine::new(units.bits)?).map(Into::into)
 }
 
-/// Fraction-free elimination on expansions \[Brochu12\], for coefficients of up to about 90 bits in a common unit.
+/// Fraction-free elimination on expansions \[Brochu12\], for coefficients of up to about 90 bits in a common
+/// unit.
 ///
 /// ```
 /// use welter_predicates::linear::{Solution, staged::by_expansions};
@@ -75,7 +78,8 @@ pub fn by_integers<const M: usize, const N: usize>(a: &[[f64; N]; M], b: &[f64; 
     in_integers(&units, |arena| elimination::solve(&system, &units, arena)).map(Into::into)
 }
 
-/// Cramer's rule in rounded arithmetic, with permanents as bounds. Signs are exact, magnitudes have no stated bound.
+/// Cramer's rule in rounded arithmetic, with permanents as bounds. Signs are exact, magnitudes have no stated
+/// bound.
 ///
 /// ```
 /// use welter_predicates::linear::{Solution, staged::by_filtered_determinants};

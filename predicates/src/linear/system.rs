@@ -1,4 +1,5 @@
-//! A system of linear equations as the exact stages read it: [`System`], and the [`Units`] that make it one of integers.
+//! A system of linear equations as the exact stages read it: [`System`], and the [`Units`] that make it one of
+//! integers.
 
 use super::MOST;
 use crate::arithmetic::fixed_point::decompose;
@@ -43,8 +44,8 @@ impl System {
 
 /// Powers of two that, as factors of rows and columns, make all coefficients integers.
 ///
-/// Multiplied by 2^(rows(i) + columns(j)), no row and no column has a factor of two in common. Graded systems, whose rows or columns have
-/// units of their own, thus become integers of the length of one of their numbers.
+/// Multiplied by 2^(rows(i) + columns(j)), no row and no column has a factor of two in common. Graded systems,
+/// whose rows or columns have units of their own, thus become integers of the length of one of their numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units {
     rows: [i32; MOST],
@@ -89,7 +90,8 @@ impl Units {
 
     /// The component `numerator / denominator` of the scaled system's solution, in units of the system itself.
     ///
-    /// Leading parts have 62 bits; each is rounded to an `f64`, and so is the quotient: off by less than 2^-51 of it.
+    /// Leading parts have 62 bits; each is rounded to an `f64`, and so is the quotient: off by less than 2^-51
+    /// of it.
     pub(super) fn component(
         &self,
         column: usize,

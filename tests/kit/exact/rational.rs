@@ -1,7 +1,7 @@
 //! Linear systems in rational numbers, by the elimination of the textbook: [`outcome`], [`solvable`].
 //!
-//! Rows are divided by their pivots and subtracted, back substitution gives the solution. Neither fraction-free nor by
-//! determinants, so a witness for both.
+//! Rows are divided by their pivots and subtracted, back substitution gives the solution. Neither fraction-free
+//! nor by determinants, so a witness for both.
 
 use rug::Rational;
 
@@ -54,8 +54,8 @@ pub fn outcome(rows: &[Vec<Rational>], unknowns: usize) -> Outcome {
     Outcome::Unique(x)
 }
 
-/// Whether some solution has no negative component: if there are many, tries every set of columns for the only solution that
-/// is zero elsewhere.
+/// Whether some solution has no negative component: if there are many, tries every set of columns for the only
+/// solution that is zero elsewhere.
 #[must_use]
 pub fn solvable(rows: &[Vec<Rational>], unknowns: usize) -> bool {
     match outcome(rows, unknowns) {

@@ -1,6 +1,8 @@
-//! The same questions asked of the linear solver: is there a common point, as weights of the corners of two simplices?
+//! The same questions asked of the linear solver: is there a common point, as weights of the corners of two
+//! simplices?
 //!
-//! With one column for each corner, its coordinates in space-time and a 1, and another 1 in the first simplex \[Brochu12\]:
+//! With one column for each corner, its coordinates in space-time and a 1, and another 1 in the first simplex
+//! \[Brochu12\]:
 //!
 //! ```text
 //! sum w_i x_i = 0      in every coordinate of space-time

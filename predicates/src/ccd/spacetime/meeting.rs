@@ -1,22 +1,27 @@
 //! Whether two simplices of four-dimensional space with six corners in all meet: [`meet`].
 //!
 //! # Method
-//! Six points `p_0 .. p_5` of R^4 have an affine dependency: numbers `c_i`, not all zero, with `sum c_i = 0` and `sum c_i p_i = 0`. By Cramer's rule
-//! `c_i = (-1)^i orient4d(all but p_i)` is one, if these are not all zero; the points then span R^4 and every other is a multiple of it.
+//! Six points `p_0 .. p_5` of R^4 have an affine dependency: numbers `c_i`, not all zero, with `sum c_i = 0`
+//! and `sum c_i p_i = 0`. By Cramer's rule `c_i = (-1)^i orient4d(all but p_i)` is one, if these are not all
+//! zero; the points then span R^4 and every other is a multiple of it.
 //!
-//! A common point of the simplices is `sum l_i p_i = sum m_j p_j` with non-negative weights that sum to 1 on either side, so `(l, -m)` is a
-//! dependency. Conversely a dependency that is non-negative on the first simplex and non-positive on the second gives a
-//! common point, divided by its sum over the first: if that sum were zero, all its terms would be, so those of the second, of sum zero, too.
-//! Hence, where the points span R^4, the simplices meet exactly if the `c_i` separate: none positive on one and none negative on the other,
-//! or the reverse. The first pair that contradicts this ends the test.
+//! A common point of the simplices is `sum l_i p_i = sum m_j p_j` with non-negative weights that sum to 1 on
+//! either side, so `(l, -m)` is a dependency. Conversely a dependency that is non-negative on the first simplex
+//! and non-positive on the second gives a common point, divided by its sum over the first: if that sum were
+//! zero, all its terms would be, so those of the second, of sum zero, too. Hence, where the points span R^4,
+//! the simplices meet exactly if the `c_i` separate: none positive on one and none negative on the other, or
+//! the reverse. The first pair that contradicts this ends the test.
 //!
-//! *Degenerate.* If all `c_i` are zero the points lie in a flat of at most three dimensions. Dropping a coordinate is injective on a flat exactly if the
-//! dropped axis is not one of its directions; for one of the four axes this is so, or the flat would be the whole space. It is found by
-//! a determinant of the kept coordinates that is not zero, of as high an order as there is: the projected points then span as many dimensions
-//! as the points themselves. An injective affine map takes common points to common points and has no others. So the question is
-//! one of three dimensions, which [`crate::intersection`] decides for every position: two triangles; or a segment and a tetrahedron, which meet
-//! if an end of the segment is in the tetrahedron, or the segment meets one of its faces. (A point of the segment in the tetrahedron nearest to
-//! one end is that end, or lies on the boundary, which is in the faces; a flat tetrahedron is the union of its faces.)
+//! *Degenerate.* If all `c_i` are zero the points lie in a flat of at most three dimensions. Dropping a
+//! coordinate is injective on a flat exactly if the dropped axis is not one of its directions; for one of the
+//! four axes this is so, or the flat would be the whole space. It is found by a determinant of the kept
+//! coordinates that is not zero, of as high an order as there is: the projected points then span as many
+//! dimensions as the points themselves. An injective affine map takes common points to common points and has no
+//! others. So the question is one of three dimensions, which [`crate::intersection`] decides for every
+//! position: two triangles; or a segment and a tetrahedron, which meet if an end of the segment is in the
+//! tetrahedron, or the segment meets one of its faces. (A point of the segment in the tetrahedron nearest to
+//! one end is that end, or lies on the boundary, which is in the faces; a flat tetrahedron is the union of its
+//! faces.)
 
 use crate::intersection::{segment_intersects_triangle, tetrahedron_contains, triangles_intersect};
 use crate::{Sign, orient2d, orient3d, orient4d};
@@ -61,7 +66,8 @@ fn meet_in_flat(p: &Events, split: usize) -> bool {
             .any(|face| segment_intersects_triangle([a, b], face))
 }
 
-/// A coordinate without which points that do not span the space are still different points of a flat of the same dimension.
+/// A coordinate without which points that do not span the space are still different points of a flat of the
+/// same dimension.
 fn injective_axis(p: &Events) -> usize {
     // Space first: a flat scene is flat in space, while time tells the ends of the step apart.
     const AXES: [usize; 4] = [2, 1, 0, 3];

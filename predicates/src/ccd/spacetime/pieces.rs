@@ -1,7 +1,8 @@
 //! The pieces of space-time that moving primitives sweep, in the order of the vertices' indices.
 //!
-//! With `x_1 .. x_k` in the order of their indices, piece `i` has the vertices `x_1 .. x_i` at time 0 and `x_i .. x_k` at time 1. On a face of the prism, `x_j` left out,
-//! these are the pieces of the remaining vertices: so they agree where primitives share vertices.
+//! With `x_1 .. x_k` in the order of their indices, piece `i` has the vertices `x_1 .. x_i` at time 0 and `x_i
+//! .. x_k` at time 1. On a face of the prism, `x_j` left out, these are the pieces of the remaining vertices:
+//! so they agree where primitives share vertices.
 
 type Event = [f64; 4];
 
