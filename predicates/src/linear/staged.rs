@@ -58,7 +58,7 @@ pub fn by_machine_integers<const M: usize, const N: usize>(
 /// ```
 /// use welter_predicates::linear::{Solution, staged::by_expansions};
 /// assert_eq!(by_expansions(&[[2.0]], &[1.0]), Some(Solution::Unique([0.5])));
-/// assert_eq!(by_expansions(&[[1.0, 1e-300]], &[1.0]), None);
+/// assert_eq!(by_expansions(&[[1.0, 1e-300], [1.0, 1.0]], &[1.0, 1.0]), None);
 /// ```
 #[must_use]
 pub fn by_expansions<const M: usize, const N: usize>(a: &[[f64; N]; M], b: &[f64; M]) -> Option<Solution<N>> {
