@@ -65,6 +65,40 @@ fn a_file_is_answered_and_compared() {
     );
 }
 
+/// A face that swings through the path of the vertex and back: contact at 1/4 and at 3/4, with which parity has no quarrel.
+#[test]
+fn methods_differ_where_they_say_so() {
+    let bench = Bench::new();
+    let row = |[x, y, z]: [&str; 3]| format!("{x},{y},{z},1\n");
+    let vertices = [
+        ["-1,1", "0,1", "-1,4"],
+        ["-4,1", "-4,1", "-4,1"],
+        ["4,1", "-4,1", "4,1"],
+        ["0,1", "4,1", "0,1"],
+        ["1,1", "0,1", "-1,4"],
+        ["-4,1", "-4,1", "4,1"],
+        ["4,1", "-4,1", "-4,1"],
+        ["0,1", "4,1", "0,1"],
+    ];
+    bench.file("vf.csv", vertices.map(row).concat());
+    for (method, false_negatives, staged) in [("exact", 0, true), ("parity", 1, false)] {
+        let (object, ran) = bench.json(&format!("ccd vf.csv --method {method}"));
+        assert_eq!(ran.exit, Some(0), "{}", ran.err);
+        assert_eq!(object["method"], json!(method));
+        let file = &object["files"][0];
+        assert_eq!(file["false_negatives"], json!(false_negatives), "{method}");
+        assert_eq!(file["stages"].is_object(), staged, "{method}");
+    }
+    // Of the swept simplices it is one contact or another, but the clear cases are the same.
+    bench.file("clear-vf.csv", right());
+    let (object, ran) = bench.json("ccd clear-vf.csv --method spacetime");
+    assert_eq!(ran.exit, Some(0), "{}", ran.err);
+    assert_eq!(
+        (&object["files"][0]["false_negatives"], &object["files"][0]["false_positives"]),
+        (&json!(0), &json!(0))
+    );
+}
+
 #[test]
 fn people_get_a_table_with_sums() {
     let bench = Bench::new();

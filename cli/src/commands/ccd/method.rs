@@ -6,7 +6,7 @@
 
 use super::kind::Kind;
 use clap::ValueEnum;
-use welter_predicates::ccd::{Stage, staged};
+use welter_predicates::ccd::{Stage, parity, spacetime, staged};
 use welter_tracking::queries::Query;
 
 /// A method, by the name that the command line knows.
@@ -14,6 +14,10 @@ use welter_tracking::queries::Query;
 pub(super) enum Method {
     /// Every contact in the closed time step, decided exactly
     Exact,
+    /// Root parity [Brochu12]: contacts on the boundary, or an odd number inside; exact, but an even number is not seen
+    Parity,
+    /// Swept simplices in space-time [Brochu12]: exact and watertight, but between its ends the step is not straight
+    Spacetime,
 }
 
 /// Groups of stages, as the report counts them.
@@ -43,7 +47,7 @@ impl From<Stage> for Settled {
     fn from(stage: Stage) -> Self {
         match stage {
             Stage::Boxes | Stage::Direction => Self::Culled,
-            Stage::Subdivision => Self::Filtered,
+            Stage::Subdivision | Stage::DoubleDouble => Self::Filtered,
             Stage::Ends | Stage::Exact | Stage::NonFinite => Self::Exact,
         }
     }
@@ -63,13 +67,25 @@ impl From<(bool, Stage)> for Decision {
     }
 }
 
+/// Of a method that does not tell its stages.
+impl From<bool> for Decision {
+    fn from(collides: bool) -> Self {
+        Self { collides, settled: None }
+    }
+}
+
 /// Decides a query.
 pub(super) type Decider = fn(&Query) -> Decision;
+
+/// Vertices of a query as its indices: each query has four of its own.
+const INDICES: [u32; 4] = [0, 1, 2, 3];
 
 impl Method {
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Exact => "exact",
+            Self::Parity => "parity",
+            Self::Spacetime => "spacetime",
         }
     }
 
@@ -78,6 +94,10 @@ impl Method {
         match (self, kind) {
             (Self::Exact, Kind::EdgeEdge) => |q| staged::edge_edge(q.t0, q.t1).into(),
             (Self::Exact, Kind::VertexFace) => |q| staged::vertex_face(q.t0, q.t1).into(),
+            (Self::Parity, Kind::EdgeEdge) => |q| parity::edge_edge(q.t0, q.t1).certain().into(),
+            (Self::Parity, Kind::VertexFace) => |q| parity::vertex_face(q.t0, q.t1).certain().into(),
+            (Self::Spacetime, Kind::EdgeEdge) => |q| spacetime::edge_edge(q.t0, q.t1, INDICES).into(),
+            (Self::Spacetime, Kind::VertexFace) => |q| spacetime::vertex_face(q.t0, q.t1, INDICES).into(),
         }
     }
 }
