@@ -6,3 +6,4 @@ mod impact;
 mod impact_laws;
 mod named;
 mod pairs;
+mod referee;
