@@ -2,7 +2,6 @@
 
 mod closed;
 mod patch;
-mod quadratic;
 mod roots;
 
 use crate::ccd::{Pair, Query};

@@ -1,7 +1,7 @@
 //! Space-time collision: against the enumeration of weights, its twin by elimination, laws, and watertightness.
 
 use welter_kit::entropy::{Entropy, stream};
-use welter_kit::exact::meeting;
+use welter_kit::exact::swept_meet;
 use welter_kit::generate::number;
 use welter_predicates::ccd::spacetime::{by_elimination, edge_edge, vertex_face, vertex_segment_2d};
 use welter_predicates::intersection::{segments_intersect_3d, triangle_contains_3d};
@@ -46,35 +46,6 @@ fn draw<const N: usize, const P: usize>(family: Family, seed: u64) -> (Places<N,
     (places, indices)
 }
 
-/// The prism over vertices sorted by index, written out as in the thesis's figure.
-fn pieces<const N: usize, const D: usize>(at: [&[[f64; N]]; 2], indices: &[u32]) -> Vec<Vec<[f64; D]>> {
-    let mut order: Vec<usize> = (0..indices.len()).collect();
-    order.sort_by_key(|&i| indices[i]);
-    let event = |i: usize, time: usize| -> [f64; D] {
-        std::array::from_fn(|k| if k < N { at[time][order[i]][k] } else { time as f64 })
-    };
-    match indices.len() {
-        1 => vec![vec![event(0, 0), event(0, 1)]],
-        2 => vec![vec![event(0, 0), event(1, 0), event(1, 1)], vec![event(0, 0), event(0, 1), event(1, 1)]],
-        _ => vec![
-            vec![event(0, 0), event(1, 0), event(2, 0), event(2, 1)],
-            vec![event(0, 0), event(1, 0), event(1, 1), event(2, 1)],
-            vec![event(0, 0), event(0, 1), event(1, 1), event(2, 1)],
-        ],
-    }
-}
-
-/// Whether the first `split` vertices and the others collide, by enumeration of weights.
-fn oracle<const N: usize, const D: usize, const P: usize>(
-    [t0, t1]: &Places<N, P>,
-    indices: &[u32; P],
-    split: usize,
-) -> bool {
-    let first = pieces::<N, D>([&t0[..split], &t1[..split]], &indices[..split]);
-    let second = pieces::<N, D>([&t0[split..], &t1[split..]], &indices[split..]);
-    first.iter().any(|a| second.iter().any(|b| !meeting(a, b).is_empty()))
-}
-
 const FAMILIES: [(Family, u64); 5] = [
     (Family::Grid(1), 1500),
     (Family::Grid(2), 1500),
@@ -114,7 +85,7 @@ fn vertex_face_agrees_with_the_enumeration_of_weights() {
     compare::<3, 4>(
         |[t0, t1], i| vertex_face(t0, t1, i),
         |[t0, t1], i| by_elimination::vertex_face(t0, t1, i),
-        |places, indices| oracle::<3, 4, 4>(places, indices, 1),
+        |places, indices| swept_meet::<3, 4, 4>(places, indices, 1),
     );
 }
 
@@ -123,7 +94,7 @@ fn edge_edge_agrees_with_the_enumeration_of_weights() {
     compare::<3, 4>(
         |[t0, t1], i| edge_edge(t0, t1, i),
         |[t0, t1], i| by_elimination::edge_edge(t0, t1, i),
-        |places, indices| oracle::<3, 4, 4>(places, indices, 2),
+        |places, indices| swept_meet::<3, 4, 4>(places, indices, 2),
     );
 }
 
@@ -132,7 +103,7 @@ fn vertex_segment_agrees_with_the_enumeration_of_weights() {
     compare::<2, 3>(
         |[t0, t1], i| vertex_segment_2d(t0, t1, i),
         |[t0, t1], i| by_elimination::vertex_segment_2d(t0, t1, i),
-        |places, indices| oracle::<2, 3, 3>(places, indices, 1),
+        |places, indices| swept_meet::<2, 3, 3>(places, indices, 1),
     );
 }
 

@@ -8,8 +8,11 @@ mod determinants;
 mod intersections;
 mod linear;
 mod meshes;
+mod parities;
+mod patches;
 mod perturbation;
 mod queries;
+mod spacetime;
 mod time_of_impact;
 
 pub use collisions::{
@@ -20,8 +23,11 @@ pub use determinants::{in_spheres, orientations};
 pub use intersections::{boxes, simplices};
 pub use linear::{agrees, linear_systems};
 pub use meshes::{read_obj, read_off, read_ply, read_stl, self_intersecting};
+pub use parities::root_parities;
+pub use patches::patch_parity;
 pub use perturbation::perturbed;
 pub use queries::read_queries;
+pub use spacetime::spacetime_collisions;
 pub use time_of_impact::time_of_impact;
 
 /// A fuzz body: takes any bytes, panics if something is wrong.
@@ -34,17 +40,20 @@ pub const BODIES: &[(&str, Body)] = &[
     ("in_spheres", in_spheres),
     ("linear_systems", linear_systems),
     ("orientations", orientations),
+    ("patch_parity", patch_parity),
     ("perturbed", perturbed),
     ("read_obj", read_obj),
     ("read_off", read_off),
     ("read_ply", read_ply),
     ("read_queries", read_queries),
     ("read_stl", read_stl),
+    ("root_parities", root_parities),
     ("self_intersecting", self_intersecting),
     ("simplices", simplices),
+    ("spacetime_collisions", spacetime_collisions),
+    ("time_of_impact", time_of_impact),
     ("vertex_face_collisions", vertex_face_collisions),
     ("vertex_segment_collisions", vertex_segment_collisions),
-    ("time_of_impact", time_of_impact),
 ];
 
 #[cfg(test)]

@@ -101,19 +101,24 @@ pub(super) fn roots([c, b, a]: &Quadratic) -> Vec<Root> {
     all.map(|(field, s, multiplicity)| Root { field, s, multiplicity }).collect()
 }
 
-#[test]
-fn signs_of_surds() {
-    // 2 s^2 - 1: 1/sqrt 2 lies between 0.7 and 0.8.
-    let [root] = &roots(&[-1, 0, 2].map(Rational::from))[..] else { panic!("one root in [0, 1]") };
-    let compare =
-        |n: i32| root.field.sign(&root.field.linear([&Rational::from((-n, 10)), &1.into()], &root.s));
-    assert_eq!((compare(7), compare(8)), (Ordering::Greater, Ordering::Less));
-    let square = root.field.multiply(&root.s, &root.s);
-    let half = Surd::rational(Rational::from((1, 2)));
-    assert_eq!(root.field.sign(&root.field.subtract(&square, &half)), Ordering::Equal);
-    assert_eq!(roots(&[1, -4, 4].map(Rational::from))[0].multiplicity, 2);
-    assert!(
-        roots(&[2, -3, 0].map(Rational::from)).len() == 1
-            && roots(&[3, -2, 0].map(Rational::from)).is_empty()
-    );
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signs_of_surds() {
+        // 2 s^2 - 1: 1/sqrt 2 lies between 0.7 and 0.8.
+        let [root] = &roots(&[-1, 0, 2].map(Rational::from))[..] else { panic!("one root in [0, 1]") };
+        let compare =
+            |n: i32| root.field.sign(&root.field.linear([&Rational::from((-n, 10)), &1.into()], &root.s));
+        assert_eq!((compare(7), compare(8)), (Ordering::Greater, Ordering::Less));
+        let square = root.field.multiply(&root.s, &root.s);
+        let half = Surd::rational(Rational::from((1, 2)));
+        assert_eq!(root.field.sign(&root.field.subtract(&square, &half)), Ordering::Equal);
+        assert_eq!(roots(&[1, -4, 4].map(Rational::from))[0].multiplicity, 2);
+        assert!(
+            roots(&[2, -3, 0].map(Rational::from)).len() == 1
+                && roots(&[3, -2, 0].map(Rational::from)).is_empty()
+        );
+    }
 }
