@@ -6,6 +6,7 @@
 mod ccd;
 mod ccd_batch;
 mod ccd_oracle;
+mod ccd_rates;
 mod family;
 mod intersection;
 mod laws;

@@ -202,3 +202,75 @@ fn determinant<T: Number, const K: usize>([p, q, r]: [&[[T; K]; 3]; 3]) -> T {
     let ab = p[0][a].times(&q[1][b]).minus(&p[1][a].times(&q[0][b]));
     p[2][a].times(&bc).minus(&q[2][b].times(&ac)).plus(&r[2][c].times(&ab))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polynomial::{Additive, Times};
+
+    /// A bound of a magnitude, and of an error in units of u.
+    #[derive(Clone, Copy, Debug)]
+    struct Bound {
+        size: f64,
+        error: f64,
+    }
+
+    impl Additive for Bound {
+        fn plus(&self, other: &Self) -> Self {
+            let size = self.size + other.size;
+            Self { size, error: self.error + other.error + size }
+        }
+        fn minus(&self, other: &Self) -> Self {
+            self.plus(other)
+        }
+    }
+
+    impl Times<Bound> for Bound {
+        type Product = Bound;
+        fn times(&self, other: &Self) -> Self {
+            let size = self.size * other.size;
+            Self { size, error: self.size * other.error + other.size * self.error + size }
+        }
+    }
+
+    impl Number for Bound {
+        const UNIT: f64 = 1.0;
+        fn difference(_: f64, _: f64) -> Self {
+            Self { size: 1.0, error: 1.0 }
+        }
+        fn of(_: f64) -> Self {
+            Self { size: 1.0, error: 0.0 }
+        }
+        fn leading(self) -> f64 {
+            self.size
+        }
+    }
+
+    /// The lines of the table, recomputed by the text that computes; with a twentieth to spare.
+    #[test]
+    fn bounds_are_those_of_the_text() {
+        let spare = |constant: f64, error: f64| constant >= 1.05 * error && constant < 1.3 * error;
+        let way = Bound::of(0.5).times(&Bound::difference(0.0, 0.0).minus(&Bound::difference(0.0, 0.0)));
+        // The place itself is within the box of its ends, which the sum of the bounds does not know.
+        let corner = Bound { size: 1.0, error: 1.0 + way.error + 1.0 };
+        assert!(spare(CORNER, corner.error), "{corner:?}");
+        let cross = corner.times(&corner).minus(&corner.times(&corner));
+        assert!(spare(NORMAL, cross.error), "{cross:?}");
+        assert!(spare(TWICE_NORMAL, cross.plus(&cross).error));
+        let corners = [[corner; 4]; 3];
+        let volume = determinant::<Bound, 4>([&corners; 3]);
+        assert!(spare(VOLUME, volume.error), "{volume:?}");
+        assert!(spare(THRICE_VOLUME, volume.plus(&volume).plus(&volume).error));
+    }
+
+    #[test]
+    fn signs_need_a_margin() {
+        assert_eq!(certain(1.0, 1.0), Sign::Zero);
+        assert_eq!(certain(-1.0, 0.5), Sign::Negative);
+        assert_eq!(certain(f64::NAN, 0.5), Sign::Zero);
+        let all_but_one = Sides { positive: 0b0111, negative: 0, hopeful: false };
+        assert!(!all_but_one.agree::<4>() && all_but_one.agree::<3>() && !all_but_one.differ());
+        let both = Sides { negative: 0b1000, ..all_but_one };
+        assert!(both.differ() && !both.agree::<4>());
+    }
+}

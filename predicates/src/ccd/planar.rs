@@ -7,7 +7,7 @@
 //! ```text
 //! all corners on one side of an axis            no contact in the interval
 //! two n_i of strict, opposite signs             no contact in the interval
-//! all n_i of one strict sign                    contact throughout the interval
+//! all n_i of one strict sign at one end         contact there
 //! otherwise                                     cut in the middle
 //! ```
 //!
@@ -16,19 +16,21 @@
 //! at both ends of the step (the least of linear functions is concave).
 
 use super::corners::Corners;
-use super::moment::Sides;
+use super::moment::{Moment, Sides};
 use super::number::Number;
 
 /// Halvings before the search is given up.
 const MOST_CUTS: usize = 10;
 
-/// Intervals examined before the search is given up.
-const MOST_INTERVALS: usize = 40;
+/// Intervals examined before the search is given up: around each of a few times at which an `n_i` changes its sign the ten halvings leave
+/// twenty.
+const MOST_INTERVALS: usize = 80;
 
 impl<T: Number, const K: usize> Corners<T, K> {
     /// Whether there is a contact at a time in `[from, to]` of a motion in the plane of two axes; `None` if these numbers cannot
     /// tell.
     pub(super) fn examine_planar(&self, axes: [usize; 2], [from, to]: [f64; 2]) -> Option<bool> {
+        let holds = |moment: &Moment<T, K>| self.sides(moment, moment, axes, Sides::UNKNOWN).agree::<K>();
         let mut low = self.at(T::of(from));
         // The right ends of the intervals that are to be examined, the next one on top.
         let mut pending = [self.at(T::of(to)); MOST_CUTS + 1];
@@ -36,10 +38,10 @@ impl<T: Number, const K: usize> Corners<T, K> {
         let mut open = false;
         for _ in 0..MOST_INTERVALS {
             let high = pending[top];
-            let sides = self.sides(&low, &high, axes, Sides::UNKNOWN);
-            if sides.agree::<K>() {
+            if holds(&low) || holds(&high) {
                 return Some(true);
             }
+            let sides = self.sides(&low, &high, axes, Sides::UNKNOWN);
             let clear = sides.differ() || self.apart_between(&low, &high);
             if !clear && !sides.hopeful {
                 break;
