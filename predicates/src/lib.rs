@@ -35,6 +35,7 @@
 //! | inside a circle, a sphere? | [`incircle`], [`insphere`] |
 //! | how do segments, triangles, boxes, tetrahedra meet? | [`intersection`] |
 //! | the same without ties | [`sos`] |
+//! | do moving vertices, edges and faces touch during a time step? | [`ccd`] |
 //! | has a small linear system one solution, with which signs? | [`linear`] |
 //! | which stage settled a sign, how often? | [`staged`], [`stats`] |
 //!
