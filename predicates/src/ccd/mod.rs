@@ -27,6 +27,11 @@
 //! 5. as 3., in double-double numbers;
 //! 6. the complete decision in exact integers (`decide`, whose head states the algorithm and its proof).
 //!
+//! Cost, measured: 5 to 25 ns where boxes or a direction decide, 0.2 to 0.6 microseconds in intervals of `f64`, 1 to 10 in double-double numbers, up to
+//! 10 in integers at a single root, 50 at double or several roots and 140 for such roots a few ulps from degenerate. Where exponents fill
+//! the whole range the integers have thousands of words: a quarter of a second is the most that was seen, and the sizes of the arenas
+//! bound it.
+//!
 //! In contrast to crossing parity ([`parity`], \[Brochu12\]) an even number of contacts is seen, and no ray is cast. Which stage settled
 //! a query is told by [`staged`].
 

@@ -11,7 +11,7 @@ use crate::intersection::{segments_intersect_3d, triangle_contains_3d};
 /// The times of a closed time step at which two primitives touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ContactTimes {
-    /// So many single times.
+    /// So many single times: at most three, but for motion within a plane, which may have a few more.
     Finite(u8),
     /// Throughout an interval of time, or several.
     Infinite,
