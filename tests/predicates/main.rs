@@ -4,6 +4,7 @@
 #![allow(clippy::print_stdout, reason = "a test says what it skipped")]
 
 mod ccd;
+mod ccd_adversarial;
 mod ccd_batch;
 mod ccd_oracle;
 mod ccd_rates;

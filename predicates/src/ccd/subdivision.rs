@@ -120,9 +120,10 @@ impl<T: Number, const K: usize> Corners<T, K> {
                 }
                 top -= 1;
             } else {
-                let middle = low.t.plus(&high.t).times(&T::of(0.5));
+                // An `f64`, for the ends of a bracket are taken on as such, and the root must stay between them.
+                let middle = low.t.plus(&high.t).leading() * 0.5;
                 top += 1;
-                pending[top] = self.at(middle);
+                pending[top] = self.at(T::of(middle));
             }
         }
         Verdict::Open
