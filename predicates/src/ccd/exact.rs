@@ -75,6 +75,8 @@ fn holds_within<const LIMBS: usize>(
 
 #[cfg(test)]
 mod tests {
+    use super::super::moment::Sides;
+    use super::super::settle::Step;
     use super::super::{EDGE_EDGE, STEP, VERTEX_FACE};
     use super::*;
 
@@ -135,5 +137,48 @@ mod tests {
         }
         // Half is left for what these did not reach.
         assert!(most > limbs.len() / 8 && most < limbs.len() / 2, "{most} of {}", limbs.len());
+    }
+
+    #[test]
+    fn arenas_of_few_limbs_and_of_parts_are_large_enough() {
+        let mut bits = Bits(5);
+        let mut most = [[0; 2]; 2];
+        let mut limbs = [0; (COORDINATE_LIMBS + TIME_LIMBS) * LIMBS_PER_LIMB];
+        for round in 0..400 {
+            let wide = round % 20 == 0 || round % 20 == 7;
+            let exponents = if wide { [1019, 1021] } else { [183, 185] };
+            let [step, offset] = exponents.map(|e| 2f64.powi(e));
+            let mut points: Step = [[[0.0; 3]; 4]; 2];
+            for x in points.as_flattened_mut().as_flattened_mut() {
+                *x = (bits.next() % 9) as f64 * step - offset
+                    + if wide { 0.0 } else { (bits.next() % 99) as f64 };
+            }
+            points[0][0] = if wide { [f64::from_bits(1); 3] } else { [1.0; 3] };
+            if round % 40 < 20 {
+                points.as_flattened_mut().iter_mut().for_each(|p| p[2] = p[1]);
+            }
+            let interval = if wide { [f64::from_bits(1), 1.0 - f64::EPSILON / 2.0] } else { STEP };
+            let corners: &[(usize, usize)] = if round % 3 == 0 { &VERTEX_FACE } else { &EDGE_EDGE };
+            let ends = [&points[0][..], &points[1][..]];
+            let size = trajectory::limbs([&points[0], &points[1]], interval);
+            assert!(if wide { size > COORDINATE_LIMBS } else { size == FEW_LIMBS });
+            for ask in [Ask::Any, Ask::Count] {
+                let mut arena = Arena::new(&mut limbs);
+                Motion::new([&points[0], &points[1]], corners, interval, &mut arena)
+                    .contact_times(ask, &mut arena);
+                most[usize::from(wide)][0] = most[usize::from(wide)][0].max(arena.high_water);
+            }
+            if round % 40 < 20 {
+                // The volume is zero, and has no single root.
+                continue;
+            }
+            let mut arena = Arena::new(&mut limbs);
+            at_root::holds_at_root(ends, corners, interval, [0, 1], Sides::UNKNOWN, &mut arena);
+            most[usize::from(wide)][1] = most[usize::from(wide)][1].max(arena.high_water);
+        }
+        for (most, capacity) in most.into_iter().zip([FEW_LIMBS, COORDINATE_LIMBS + TIME_LIMBS]) {
+            assert!(most[0] < capacity * LIMBS_PER_LIMB / 2, "{most:?} for {capacity}");
+            assert!(most[1] < capacity * LIMBS_AT_ROOT / 2, "{most:?} for {capacity}");
+        }
     }
 }
