@@ -5,7 +5,7 @@
 //! coordinate of each point at each end of the step: [`Columns`].
 //!
 //! # Method
-//! Blocks of [`LANES`] queries. Boxes and the likeliest separating direction, without a branch between the queries of a block, so that the
+//! Blocks of a few dozen queries. Boxes and the likeliest separating direction, without a branch between the queries of a block, so that the
 //! compiler turns the loop over them into vector instructions; with the feature `simd` for the widest vectors that the machine
 //! has, chosen at run time. What these stages leave goes to the single query.
 //!

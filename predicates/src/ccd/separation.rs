@@ -8,7 +8,8 @@
 //! `5u (|d_0| m_0 + |d_1| m_1 + |d_2| m_2)` of `d . P_i`, where `m_k >= |x_k|`: one rounding of the difference, one of the
 //! product and at most two of the sums, `(1 + u)^4 <= 1 + 4.1u`; the rest covers the rounding of the bound itself.
 //! Underflow of a product adds at most 2^-1075 each, covered by [`UNDERFLOW`]. Overflow makes the bound infinite, or
-//! the product infinite or NaN with an infinite bound: nothing is decided then.
+//! the product infinite or NaN with an infinite bound: nothing is decided then. Of coordinates that were scaled down below 1 the scaling may lose
+//! 2^-1075 each, times a direction below 2^12: covered too.
 
 use super::corners::Corners;
 

@@ -135,10 +135,9 @@ impl<const K: usize, E: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Q
             },
         };
         // Coordinates that differ much less at one end than they measure at the other are lost by scaling.
-        if axes.iter().all(|&k| (LEAST..=MOST).contains(&scaled.maxima[k])) {
-            if let Some(contact) = scaled.examine_planar(axes, interval) {
-                return (contact, Stage::Subdivision);
-            }
+        let in_range = axes.iter().all(|&k| (LEAST..=MOST).contains(&scaled.maxima[k]));
+        if in_range && let Some(contact) = scaled.examine_planar(axes, interval) {
+            return (contact, Stage::Subdivision);
         }
         self.settle_ends(interval).unwrap_or_else(|| (self.decide(interval, Some(axes)), Stage::Exact))
     }

@@ -15,6 +15,9 @@
 //! root by what the error of `f` leaves open. What is not clear then is a [`Bracket`]: the caller can go on with it in
 //! numbers of more digits. An interval that is not clear after [`MOST_CUTS`] cuts is left to a decision of another kind.
 //!
+//! The time of a secant may round out of its bracket, by a unit: `f` changes by at most 36u of the product of the magnitudes there, and a certain sign
+//! needs 200u, so that it is still that of a time inside.
+//!
 //! # Promises
 //! A decision is right. The number of operations is bounded by a constant.
 

@@ -14,9 +14,9 @@ use welter_tracking::queries::Query;
 pub(super) enum Method {
     /// Every contact in the closed time step, decided exactly
     Exact,
-    /// Root parity [Brochu12]: contacts on the boundary, or an odd number inside; exact, but an even number is not seen
+    /// Root parity (Brochu 2012): contacts on the boundary, or an odd number inside; exact, but an even number is not seen
     Parity,
-    /// Swept simplices in space-time [Brochu12]: exact and watertight, but between its ends the step is not straight
+    /// Swept simplices in space-time (Brochu 2012): exact and watertight, but between its ends the step is not straight
     Spacetime,
 }
 
