@@ -25,7 +25,6 @@
 
 use super::corners::Corners;
 use super::query::{copied, settle_edge_edge, settle_vertex_face};
-use super::settle::boxes_apart;
 use super::{EDGE_EDGE, STEP, VERTEX_FACE};
 use core::fmt;
 
@@ -179,8 +178,8 @@ fn culled<const K: usize>(block: &Block<'_>, corners: &[(usize, usize); K]) -> C
     let mut culled = [0; LANES];
     for (l, culled) in culled.iter_mut().enumerate() {
         let [t0, t1] = lane(block, l);
-        let differences = Corners::new([&t0, &t1], corners, None);
-        let mut apart = boxes_apart::<K>(&t0, &t1) | differences.separated_by_first_normal();
+        let (differences, mut apart) = Corners::with_boxes([&t0, &t1], corners);
+        apart |= differences.separated_by_first_normal();
         if K == 3 {
             // One in ten separations of a vertex and a face; hardly any of two edges.
             apart |= differences.separated_by_centre();

@@ -40,3 +40,30 @@ impl<T: Number, const K: usize> Corners<T, K> {
         [0, 1].map(|end| core::array::from_fn(|i| core::array::from_fn(|k| self.ends[end][k][i])))
     }
 }
+
+impl<const K: usize> Corners<f64, K> {
+    /// The corners, and whether along some axis all are strictly on one side of the origin at both ends of the step. The sign of a
+    /// rounded difference is that of the difference.
+    #[inline(always)]
+    pub(super) fn with_boxes(step: [&[[f64; 3]; 4]; 2], corners: &[(usize, usize); K]) -> (Self, bool) {
+        let mut ends = [[[0.0; K]; 3]; 2];
+        let (mut lows, mut highs) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for (end, places) in ends.iter_mut().zip(step) {
+            for (k, row) in end.iter_mut().enumerate() {
+                for (corner, &(i, j)) in row.iter_mut().zip(corners) {
+                    let x = places[i][k] - places[j][k];
+                    *corner = x;
+                    lows[k] = if x < lows[k] { x } else { lows[k] };
+                    highs[k] = if x > highs[k] { x } else { highs[k] };
+                }
+            }
+        }
+        let mut maxima = [0.0; 3];
+        let mut apart = false;
+        for k in 0..3 {
+            maxima[k] = if highs[k] > -lows[k] { highs[k] } else { -lows[k] };
+            apart |= (lows[k] > 0.0) | (highs[k] < 0.0);
+        }
+        (Self { ends, maxima }, apart)
+    }
+}
