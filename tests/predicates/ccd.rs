@@ -25,36 +25,47 @@ fn times(pair: Pair, [t0, t1]: Query) -> ContactTimes {
     times
 }
 
+/// The same question in other names, order, units and direction of time, each with the law that says so.
+pub(crate) fn equivalents(pair: Pair, query: Query) -> Vec<(&'static str, Query)> {
+    let [t0, t1] = query;
+    let points = |f: &dyn Fn([f64; 3]) -> [f64; 3]| query.map(|t| t.map(f));
+    let order = |order: [usize; 4]| query.map(|t| order.map(|i| t[i]));
+    let mut all = vec![
+        ("time reversed", [t1, t0]),
+        ("negated", points(&|p| p.map(|x| -x))),
+        ("one axis negated", points(&|[x, y, z]| [x, -y, z])),
+    ];
+    for axes in [[1, 2, 0], [2, 0, 1], [1, 0, 2], [0, 2, 1], [2, 1, 0]] {
+        all.push(("axes permuted", points(&|p| axes.map(|k| p[k]))));
+    }
+    all.extend(match pair {
+        Pair::VertexFace => {
+            vec![("face turned", order([0, 2, 3, 1])), ("face mirrored", order([0, 2, 1, 3]))]
+        }
+        Pair::EdgeEdge => vec![
+            ("first edge reversed", order([1, 0, 2, 3])),
+            ("second edge reversed", order([0, 1, 3, 2])),
+            ("edges swapped", order([2, 3, 0, 1])),
+        ],
+    });
+    let powers = [-1060, -1000, -500, -250, 7, 250, 500, 1000];
+    all.extend(powers.into_iter().filter_map(|power| Some(("scaled", scaled(query, power)?))));
+    all
+}
+
+/// The query times `2^power`, if that is exact.
+pub(crate) fn scaled(query: Query, power: i32) -> Option<Query> {
+    let scale = |x: f64| x * 2f64.powi(power / 2) * 2f64.powi(power - power / 2);
+    let unscale = |x: f64| x * 2f64.powi(-power / 2) * 2f64.powi(power / 2 - power);
+    let exact = query.iter().flatten().flatten().all(|&x| unscale(scale(x)) == x);
+    exact.then(|| query.map(|t| t.map(|p| p.map(scale))))
+}
+
 /// The answer, after checking that it does not depend on names, order, units or the direction of time.
 fn lawful(pair: Pair, query: Query) -> ContactTimes {
     let expected = times(pair, query);
-    let same =
-        |law: &str, other: Query| assert_eq!(times(pair, other), expected, "{law}: {pair:?} {query:?}");
-    let [t0, t1] = query;
-    same("time reversed", [t1, t0]);
-    let points = |f: &dyn Fn([f64; 3]) -> [f64; 3]| query.map(|t| t.map(f));
-    same("axes permuted", points(&|[x, y, z]| [y, z, x]));
-    same("axes swapped", points(&|[x, y, z]| [y, x, z]));
-    same("negated", points(&|p| p.map(|x| -x)));
-    same("one axis negated", points(&|[x, y, z]| [x, -y, z]));
-    let order = |order: [usize; 4]| query.map(|t| order.map(|i| t[i]));
-    match pair {
-        Pair::VertexFace => {
-            same("face turned", order([0, 2, 3, 1]));
-            same("face mirrored", order([0, 2, 1, 3]));
-        }
-        Pair::EdgeEdge => {
-            same("first edge reversed", order([1, 0, 2, 3]));
-            same("second edge reversed", order([0, 1, 3, 2]));
-            same("edges swapped", order([2, 3, 0, 1]));
-        }
-    }
-    for power in [-1060, -1000, -500, 7, 500, 1000] {
-        let scale = |x: f64| x * 2f64.powi(power / 2) * 2f64.powi(power - power / 2);
-        let unscale = |x: f64| x * 2f64.powi(-power / 2) * 2f64.powi(power / 2 - power);
-        if query.iter().flatten().flatten().all(|&x| unscale(scale(x)) == x) {
-            same("scaled", points(&|p| p.map(scale)));
-        }
+    for (law, other) in equivalents(pair, query) {
+        assert_eq!(times(pair, other), expected, "{law}: {pair:?} {query:?}");
     }
     expected
 }

@@ -4,7 +4,7 @@ mod closed;
 mod patch;
 mod roots;
 
-use crate::ccd::{Pair, Query};
+use crate::ccd::{Pair, Query, equivalents, scaled};
 use welter_predicates::ccd::parity::RootParity::{Even, Odd, OnBoundary};
 use welter_predicates::ccd::parity::{RootParity, edge_edge, vertex_face, vertex_segment_2d};
 
@@ -105,43 +105,10 @@ fn halves<const P: usize>(points: [[f64; 3]; P]) -> Query {
 /// The answer, after checking that it does not depend on names, order, units or the direction of time.
 fn lawful(pair: Pair, query: Query) -> RootParity {
     let expected = parity(pair, query);
-    let same = |law: &str, other: Query| {
+    for (law, other) in equivalents(pair, query) {
         assert_eq!(parity(pair, other), expected, "{law}: {pair:?} {query:?}");
-    };
-    let [t0, t1] = query;
-    same("time reversed", [t1, t0]);
-    let points = |f: &dyn Fn([f64; 3]) -> [f64; 3]| query.map(|t| t.map(f));
-    for axes in [[1, 2, 0], [2, 0, 1], [1, 0, 2], [0, 2, 1], [2, 1, 0]] {
-        same("axes permuted", points(&|p| axes.map(|k| p[k])));
-    }
-    same("negated", points(&|p| p.map(|x| -x)));
-    same("one axis negated", points(&|[x, y, z]| [x, -y, z]));
-    let order = |order: [usize; 4]| query.map(|t| order.map(|i| t[i]));
-    match pair {
-        Pair::VertexFace => {
-            same("face turned", order([0, 2, 3, 1]));
-            same("face mirrored", order([0, 2, 1, 3]));
-        }
-        Pair::EdgeEdge => {
-            same("first edge reversed", order([1, 0, 2, 3]));
-            same("second edge reversed", order([0, 1, 3, 2]));
-            same("edges swapped", order([2, 3, 0, 1]));
-        }
-    }
-    for power in [-1060, -1000, -500, -250, 7, 250, 500, 1000] {
-        if let Some(scaled) = scaled(query, power) {
-            same("scaled", scaled);
-        }
     }
     expected
-}
-
-/// The query times `2^power`, if that is exact.
-fn scaled(query: Query, power: i32) -> Option<Query> {
-    let scale = |x: f64| x * 2f64.powi(power / 2) * 2f64.powi(power - power / 2);
-    let unscale = |x: f64| x * 2f64.powi(-power / 2) * 2f64.powi(power / 2 - power);
-    let exact = query.iter().flatten().flatten().all(|&x| unscale(scale(x)) == x);
-    exact.then(|| query.map(|t| t.map(|p| p.map(scale))))
 }
 
 const SWINGING_FACE: [[[f64; 3]; 3]; 2] = [

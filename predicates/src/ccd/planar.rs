@@ -19,7 +19,8 @@ use super::corners::Corners;
 use super::moment::{Moment, Sides};
 use super::number::Number;
 
-/// Halvings before the search is given up.
+/// Halvings before the search is given up: with so many, one uniform query in ten thousand is left to integers, as the test of
+/// the stages' shares counts.
 const MOST_CUTS: usize = 10;
 
 /// Intervals examined before the search is given up: around each of a few times at which an `n_i` changes its sign the ten halvings leave

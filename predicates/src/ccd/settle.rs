@@ -78,7 +78,8 @@ pub(super) struct Query<'s, const K: usize, E> {
 /// Intervals that `f64` may take: eight halvings towards one time leave 17.
 const MOST_INTERVALS: usize = 24;
 
-/// The same for double-double numbers, whose intervals cost a microsecond each.
+/// The same for double-double numbers, whose intervals cost a microsecond each: what is left to these has mostly one root, which the
+/// first interval brackets, and the integers after them cost as much as eight.
 const MOST_FINE_INTERVALS: usize = 8;
 
 impl<const K: usize, E: Fn([f64; 2], Ask, Option<[usize; 2]>) -> ContactTimes> Query<'_, K, E> {

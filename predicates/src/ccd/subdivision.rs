@@ -26,7 +26,8 @@ use super::moment::{Moment, Sides, certain};
 use super::number::Number;
 use crate::Sign;
 
-/// Halvings of the step before the search is given up: single contacts of meshes never need more than three.
+/// Halvings of the step before the search is given up: with so many, one uniform query in ten thousand is left to more digits, as
+/// the test of the stages' shares counts.
 const MOST_CUTS: usize = 8;
 
 /// Evaluations while a bracket shrinks: the Illinois rule gains a factor of 1.44 of the digits each time, and 53
