@@ -14,6 +14,8 @@
 
 #![forbid(unsafe_code)]
 
+pub mod field;
+pub mod grid;
 pub mod io;
 mod monitor;
 pub mod shapes;
