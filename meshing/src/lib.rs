@@ -17,6 +17,7 @@
 pub mod field;
 pub mod grid;
 pub mod io;
+pub mod isosurface;
 mod monitor;
 pub mod shapes;
 pub mod spatial;

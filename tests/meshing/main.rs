@@ -8,6 +8,7 @@
 )]
 
 mod io;
+mod isosurface;
 mod shapes;
 mod spatial;
 mod surface;

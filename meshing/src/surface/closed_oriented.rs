@@ -76,6 +76,12 @@ impl ClosedOrientedMesh {
         if defects.is_empty() { Ok(()) } else { Err(ClosedOrientedError::Defects(Box::new(defects))) }
     }
 
+    /// Takes over a mesh of which the promise is known by its construction.
+    pub(crate) fn by_construction(mesh: TriMesh) -> Self {
+        debug_assert!(Self::check(&mesh).is_ok(), "a construction that promises a closed oriented surface");
+        Self(mesh)
+    }
+
     /// The mesh without its promise.
     #[must_use]
     pub fn as_mesh(&self) -> &TriMesh {

@@ -2,7 +2,8 @@
 //!
 //! # What it promises
 //! No two triangles have a point in common besides the vertex or edge that they share by index: decided by exact
-//! predicates for all pairs, for every finite `f64`. Parts that only touch are refused as well.
+//! predicates for all pairs, for every finite `f64`; or known from the way in which the surface was made, where that
+//! way has a proof. Parts that only touch are refused as well.
 //!
 //! # What it does not promise
 //! That every edge has two triangles: more may meet at an edge that they share.
@@ -58,6 +59,11 @@ impl EmbeddedMesh {
         } else {
             Err(EmbeddedError::SelfIntersections(SelfIntersections { pairs }))
         }
+    }
+
+    /// Takes over a mesh that is free of self-intersection by its construction.
+    pub(crate) fn by_construction(mesh: ClosedOrientedMesh) -> Self {
+        Self(mesh)
     }
 
     /// The mesh without this promise.

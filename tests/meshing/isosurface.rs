@@ -1,0 +1,5 @@
+//! Tests of `welter_meshing::isosurface`.
+
+mod extraction;
+mod naive;
+mod table;
