@@ -2,4 +2,5 @@
 
 mod extraction;
 mod naive;
+mod squares;
 mod table;

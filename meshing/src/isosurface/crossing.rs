@@ -11,7 +11,7 @@
 
 use super::{IsosurfaceError, MarchingCubes};
 use crate::DVec3;
-use crate::grid::{Grid3, Samples};
+use crate::grid::{Grid, Samples};
 
 /// Length of the part of an edge to which a root is narrowed down, in edges: a few gaps of numbers for a grid of moderate size about the origin.
 const ROOT_TOLERANCE: f64 = 1.0 / (1_u64 << 44) as f64;
@@ -32,7 +32,7 @@ impl Crossings<'_> {
         let mut end = node;
         end[axis] += 1;
         let values = [node, end].map(|n| self.samples.at(n));
-        let at = self.level_between(values);
+        let at = level_between(values, self.parameters.level);
         let start = grid.position(node);
         let place = |t: f64| {
             let mut point = start;
@@ -45,15 +45,6 @@ impl Crossings<'_> {
         };
         // The margin is many gaps of numbers wide (see `require_room`), so rounding does not reach a node.
         place(at.clamp(self.parameters.margin, 1.0 - self.parameters.margin))
-    }
-
-    /// Where on an edge, from 0 to 1, the linear interpolant of its ends has the level.
-    fn level_between(&self, values: [f64; 2]) -> f64 {
-        // Halves, so that no difference overflows.
-        let [a, b] = values.map(|v| 0.5 * v - 0.5 * self.parameters.level);
-        let at = 0.5 * a / (0.5 * a - 0.5 * b);
-        // Both infinite, or a difference below the smallest number.
-        if at.is_nan() { 0.5 } else { at }
     }
 
     /// The root of `f` on an edge, between whose ends it has other signs.
@@ -92,13 +83,22 @@ impl Crossings<'_> {
     }
 }
 
+/// Where on an edge, from 0 to 1, the linear interpolant of its ends has a level.
+pub(super) fn level_between(values: [f64; 2], level: f64) -> f64 {
+    // Halves, so that no difference overflows.
+    let [a, b] = values.map(|v| 0.5 * v - 0.5 * level);
+    let at = 0.5 * a / (0.5 * a - 0.5 * b);
+    // Both infinite, or a difference below the smallest number.
+    if at.is_nan() { 0.5 } else { at }
+}
+
 /// Refuses a grid on which the margin is not at least two gaps of numbers wide.
-pub(super) fn require_room(grid: &Grid3, parameters: &MarchingCubes<'_>) -> Result<(), IsosurfaceError> {
+pub(super) fn require_room<const D: usize>(grid: &Grid<D>, margin: f64) -> Result<(), IsosurfaceError> {
     let spacing = grid.spacing();
-    for axis in 0..3 {
+    for axis in 0..D {
         let coordinate = grid.origin()[axis].abs().max(grid.max()[axis].abs());
         let gap = coordinate.next_up() - coordinate;
-        if 2.0 * gap > parameters.margin * spacing {
+        if 2.0 * gap > margin * spacing {
             return Err(IsosurfaceError::TooFine { axis, coordinate, gap, spacing });
         }
     }

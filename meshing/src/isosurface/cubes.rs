@@ -15,6 +15,9 @@ use crate::grid::Samples;
 use crate::surface::{ClosedOrientedMesh, EmbeddedMesh, MAX_TRIANGLES, TriMesh, TriangleSoup};
 use crate::{DVec3, Monitor};
 
+/// Default distance of vertices from nodes, in cells: see [`MarchingCubes::margin`].
+pub(super) const DEFAULT_MARGIN: f64 = 1.0 / (1 << 20) as f64;
+
 /// Parameters of [`marching_cubes`].
 #[derive(Clone, Copy)]
 pub struct MarchingCubes<'a> {
@@ -29,7 +32,7 @@ pub struct MarchingCubes<'a> {
 
 impl Default for MarchingCubes<'_> {
     fn default() -> Self {
-        Self { level: 0.0, margin: 1.0 / (1 << 20) as f64, roots_of: None }
+        Self { level: 0.0, margin: DEFAULT_MARGIN, roots_of: None }
     }
 }
 
@@ -49,13 +52,18 @@ impl MarchingCubes<'_> {
     /// # Errors
     /// [`IsosurfaceError::Parameter`].
     pub fn validate(&self) -> Result<(), IsosurfaceError> {
-        let require = |holds: bool, parameter, value, range| {
-            if holds { Ok(()) } else { Err(IsosurfaceError::Parameter { parameter, value, range }) }
-        };
-        require(self.level.is_finite(), "level", self.level, "finite")?;
-        let holds = (libm::ldexp(1.0, -40)..=0.25).contains(&self.margin);
-        require(holds, "margin", self.margin, "between 2^-40 and 1/4")
+        require_level_and_margin(self.level, self.margin)
     }
+}
+
+/// The checks that marching cubes and squares share.
+pub(super) fn require_level_and_margin(level: f64, margin: f64) -> Result<(), IsosurfaceError> {
+    let require = |holds: bool, parameter, value, range| {
+        if holds { Ok(()) } else { Err(IsosurfaceError::Parameter { parameter, value, range }) }
+    };
+    require(level.is_finite(), "level", level, "finite")?;
+    let holds = (libm::ldexp(1.0, -40)..=0.25).contains(&margin);
+    require(holds, "margin", margin, "between 2^-40 and 1/4")
 }
 
 /// The closed surface around the part of the grid where samples are below the level. Where that part reaches the wall of the grid,
@@ -119,7 +127,7 @@ fn extract(
     monitor: &Monitor<'_>,
 ) -> Result<TriMesh, IsosurfaceError> {
     parameters.validate()?;
-    require_room(samples.grid(), parameters)?;
+    require_room(samples.grid(), parameters.margin)?;
     let signs = Signs::new(samples, parameters.level, capped, monitor)?;
     let positions = positions(&signs, &Crossings { samples, parameters }, monitor)?;
     let triangles = triangles(&signs, monitor)?;

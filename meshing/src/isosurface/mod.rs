@@ -1,4 +1,4 @@
-//! Surfaces from fields: [`marching_cubes`].
+//! Surfaces from fields: [`marching_cubes`], and its twin in the plane, [`marching_squares`].
 //!
 //! # What it promises
 //! * The surface of any samples is closed, oriented and free of self-intersection, with two triangles at every edge and one fan at every vertex,
@@ -24,9 +24,11 @@ mod crossing;
 mod cubes;
 mod error;
 mod signs;
+mod squares;
 mod table;
 mod wall;
 
 pub use cubes::{MarchingCubes, marching_cubes, marching_cubes_open};
 pub use error::IsosurfaceError;
+pub use squares::{Contours, MarchingSquares, SquareCase, SquarePoint, marching_squares};
 pub use table::{CellCase, CellPoint, FacePolygon};
