@@ -19,6 +19,7 @@ pub mod grid;
 pub mod io;
 pub mod isosurface;
 mod monitor;
+pub mod quadrature;
 pub mod shapes;
 pub mod spatial;
 pub mod surface;
