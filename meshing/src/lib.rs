@@ -14,6 +14,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod cut_cells;
 pub mod field;
 pub mod grid;
 pub mod io;

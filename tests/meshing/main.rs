@@ -7,6 +7,7 @@
     reason = "a test reports by panic and print"
 )]
 
+mod cut_cells;
 mod io;
 mod isosurface;
 mod shapes;

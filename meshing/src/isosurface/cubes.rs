@@ -136,7 +136,7 @@ fn extract(
 }
 
 /// The position of every vertex.
-fn positions(
+pub(super) fn positions(
     signs: &Signs,
     crossings: &Crossings<'_>,
     monitor: &Monitor<'_>,

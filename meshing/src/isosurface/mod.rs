@@ -23,6 +23,7 @@ mod cell;
 mod crossing;
 mod cubes;
 mod error;
+mod mixed;
 mod signs;
 mod squares;
 mod table;
@@ -30,5 +31,6 @@ mod wall;
 
 pub use cubes::{MarchingCubes, marching_cubes, marching_cubes_open};
 pub use error::IsosurfaceError;
+pub(crate) use mixed::MixedCells;
 pub use squares::{Contours, MarchingSquares, SquareCase, SquarePoint, marching_squares};
 pub use table::{CellCase, CellPoint, FacePolygon};
