@@ -4,7 +4,8 @@
 //! Let `g` be the largest power of two of which both the origin and the spacing are multiples. All nodes are multiples of `g`, and so is every
 //! `i * spacing`. A multiple of `g` is an `f64` if it is at most `2^53 g` (and `g` at least the smallest number). So
 //! `origin + i * spacing` has neither a rounded product nor a rounded sum if the first and last coordinates and their difference
-//! are at most `2^53 g`: that is what [`Grid::new`] checks.
+//! are less than `2^53 g`: that is what [`Grid::new`] checks. Its own sums may be rounded, but not to below `2^53 g` from there or
+//! above, since that is an `f64`; up to `2^53 g`, from `2^53 g + g`, they may.
 
 use glam::{DVec2, DVec3};
 
@@ -257,7 +258,7 @@ fn exact(origin: f64, spacing: f64, cells: u32) -> bool {
     let length = f64::from(cells) * spacing;
     let reach = origin.abs().max((origin + length).abs()).max(length);
     // The granule may be below the smallest normal number only where coordinates are as small; spacings are not.
-    reach <= libm::ldexp(1.0, granule + 53)
+    reach < libm::ldexp(1.0, granule + 53)
 }
 
 /// The exponent of the lowest set bit of a number; `None` for zero.
@@ -313,6 +314,25 @@ mod tests {
         assert!(matches!(Grid2::new([0.0; 2], 1.0, [1, 0]), Err(GridError::Cells { axis: 1, .. })));
         assert!(matches!(Grid2::covering([1.0; 2], [0.0; 2], 1.0, 0), Err(GridError::Inverted { .. })));
         assert!(matches!(Grid2::covering([0.0; 2], [1e70; 2], 1e-70, 0), Err(GridError::Cells { .. })));
+    }
+
+    #[test]
+    fn a_grid_is_refused_if_its_last_node_is_rounded_to_where_the_last_exact_one_would_be() {
+        let limit = 2f64.powi(53);
+        // The last node is 2^53 + 1: as a sum, as a product, and as a product that the sum hides.
+        for (origin, spacing, cells) in [
+            (limit - 2.0, 1.0, 3),
+            (0.0, 3_002_399_751_580_331.0, 3),
+            (-limit, 3_002_399_751_580_331.0, 3),
+            (-limit - 2.0, 1.0, 2),
+        ] {
+            let of = |scale: f64| Grid2::new([0.0, origin * scale], spacing * scale, [1, cells]);
+            for scale in [1.0, 0.25, 2f64.powi(100), 2f64.powi(-180)] {
+                assert!(matches!(of(scale), Err(GridError::Inexact { axis: 1, .. })), "{origin} {spacing}");
+            }
+        }
+        let nearest = Grid2::new([limit - 4.0, 1.0 - limit], 1.0, [3, 3]).unwrap();
+        assert_eq!(nearest.max(), [limit - 1.0, 4.0 - limit]);
     }
 
     #[test]
