@@ -170,7 +170,7 @@ pub(super) fn positions(
 fn triangles(signs: &Signs, monitor: &Monitor<'_>) -> Result<Vec<[u32; 3]>, IsosurfaceError> {
     let layers = signs.grid.cells()[2];
     let stage = monitor.stage("triangles", 2 * u64::from(layers));
-    let wall = wall_triangles(signs);
+    let wall = wall_triangles(signs, &stage)?;
     let counts: Vec<usize> = (0..layers)
         .into_par_iter()
         .map(|k| {

@@ -6,7 +6,7 @@
 //! kinds in the row, plus the bits before `i`: no table from edges to numbers is kept, and the same edge has the same number from every cell.
 //!
 //! # Complexity
-//! One pass over the samples; 1 bit a node and 16 bytes a row of memory.
+//! One pass over the samples; of memory 16 bytes a row and 1 bit a node, in words of 64 for each row.
 
 use rayon::prelude::*;
 
@@ -152,10 +152,23 @@ impl Signs {
     }
 
     /// The number of the vertex of a kind at a node, by counting the bits of its row before it.
-    pub(super) fn vertex(&self, kind: usize, [i, j, k]: [u32; 3]) -> u32 {
+    pub(super) fn vertex(&self, kind: usize, node: [u32; 3]) -> u32 {
+        let row = self.row_of(node[1], node[2]);
+        let before = (0..node[0] as usize / 64).map(|w| self.kind(kind, row, w).count_ones()).sum();
+        self.vertex_after(before, kind, node)
+    }
+
+    /// How many vertices of a kind lie in a row before each of its words.
+    pub(super) fn vertices_before_words(&self, kind: usize, row: usize) -> Vec<u32> {
+        let counts = (0..self.words).map(|w| self.kind(kind, row, w).count_ones());
+        counts.scan(0, |sum, count| Some(std::mem::replace(sum, *sum + count))).collect()
+    }
+
+    /// The number of the vertex of a kind at a node, with `before` of the kind before its word.
+    #[inline]
+    pub(super) fn vertex_after(&self, before: u32, kind: usize, [i, j, k]: [u32; 3]) -> u32 {
         let row = self.row_of(j, k);
         let (w, bit) = (i as usize / 64, i as usize % 64);
-        let before: u32 = (0..w).map(|w| self.kind(kind, row, w).count_ones()).sum();
         self.first[row][kind] + before + (self.kind(kind, row, w) & mask_below(bit)).count_ones()
     }
 
