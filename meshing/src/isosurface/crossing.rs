@@ -1,8 +1,9 @@
 //! [`Crossings`]: where the surface crosses an edge of the grid.
 //!
 //! # What it promises
-//! A sample lies on its edge exactly and strictly between the ends, at least the margin away from both: one coordinate is changed
-//! from that of a node, and the nodes are exact. Three samples on different edges of a cell are then never on one line.
+//! A sample lies on its edge exactly and strictly between the ends: one coordinate is changed from that of a node, and the nodes are exact. It is at least the
+//! margin away from both ends, but for its rounding, which takes no more than a quarter of the margin. Three samples on different edges of a cell are
+//! never on one line: a line that meets the cell's boundary thrice lies in the plane of a face, and meets the face's rim twice or runs along an edge.
 //!
 //! # Method
 //! The zero of the linear interpolant; with a field at hand, then the root of the field on the edge by the Illinois variant of the false position
@@ -83,10 +84,13 @@ impl Crossings<'_> {
     }
 }
 
-/// Where on an edge, from 0 to 1, the linear interpolant of its ends has a level.
+/// Where on an edge, from 0 to 1, the linear interpolant of its ends has a level: in the limit, at the finite end if the other is infinite.
 pub(super) fn level_between(values: [f64; 2], level: f64) -> f64 {
     // Halves, so that no difference overflows.
     let [a, b] = values.map(|v| 0.5 * v - 0.5 * level);
+    if a.is_infinite() && b.is_finite() {
+        return 1.0;
+    }
     let at = 0.5 * a / (0.5 * a - 0.5 * b);
     // Both infinite, or a difference below the smallest number.
     if at.is_nan() { 0.5 } else { at }

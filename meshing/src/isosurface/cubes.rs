@@ -70,7 +70,8 @@ pub(super) fn require_level_and_margin(level: f64, margin: f64) -> Result<(), Is
 /// the wall belongs to the surface.
 ///
 /// The surface is free of self-intersection, whatever the samples are; every edge has two triangles and every vertex one fan. Triangles
-/// are counterclockwise seen from where samples are larger. A sample that equals the level counts as larger; infinite samples are allowed.
+/// are counterclockwise seen from where samples are larger. A sample that equals the level counts as larger; infinite samples are allowed, and have the
+/// surface as near to their finite neighbours as the margin lets it.
 /// Vertices lie on edges of the grid exactly, and strictly between their ends.
 ///
 /// ```

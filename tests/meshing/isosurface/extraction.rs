@@ -132,6 +132,23 @@ fn the_opposite_samples_have_the_same_vertices() {
 }
 
 #[test]
+fn an_infinite_sample_pushes_the_surface_to_its_finite_neighbour_from_either_side() {
+    let grid = Grid3::new([0.0; 3], 1.0, [1, 1, 1]).unwrap();
+    for (low, high, expected) in [
+        (f64::INFINITY, -1.0, 1.0 - DEFAULT.margin),
+        (f64::NEG_INFINITY, 1.0, 1.0 - DEFAULT.margin),
+        (-1.0, f64::INFINITY, DEFAULT.margin),
+        (1.0, f64::NEG_INFINITY, DEFAULT.margin),
+        (f64::NEG_INFINITY, f64::INFINITY, 0.5),
+    ] {
+        let ends = Samples::of(&grid, &|p: DVec3| if p.y == 0.0 { low } else { high }, &Monitor::none());
+        let mesh = marching_cubes_open(&ends.unwrap(), &DEFAULT, &Monitor::none()).unwrap();
+        assert_eq!(mesh.positions().len(), 4);
+        assert!(mesh.positions().iter().all(|p| p.y == expected), "{low} {high}: {:?}", mesh.positions());
+    }
+}
+
+#[test]
 fn bad_input_is_named() {
     let mut samples = drawn(3, [4, 4, 4], &[-1.0, 1.0]);
     let node = [3, 2, 1];

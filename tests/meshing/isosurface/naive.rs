@@ -57,7 +57,12 @@ fn place(samples: &Samples<3>, level: f64, margin: f64, ends: Key, point: CellPo
     }
     let Edge(edge) = point else { unreachable!("a corner or an edge") };
     let [a, b] = ends.map(|node| samples.at(node) / 2.0 - level / 2.0);
-    let at = (a / 2.0) / (a / 2.0 - b / 2.0);
+    let at = match [a, b].map(f64::is_infinite) {
+        [true, true] => 0.5,
+        [true, false] => 1.0,
+        [false, true] => 0.0,
+        [false, false] => (a / 2.0) / (a / 2.0 - b / 2.0),
+    };
     let at = if at.is_nan() { 0.5 } else { at.clamp(margin, 1.0 - margin) };
     let mut place = low;
     let axis = usize::from(edge / 4);
