@@ -55,6 +55,28 @@ fn volumes_and_areas_add_up_to_those_of_the_surface() {
 }
 
 #[test]
+fn areas_scale_with_the_grid_down_to_the_smallest_spacing() {
+    let rule = TriangleRule::of_degree(2).unwrap();
+    let measures = |scale: f64, margin: f64| {
+        let grid = Grid3::new([0.0; 3], scale, [2; 3]).unwrap();
+        let values = (0..27).map(|n| if n % 5 == 0 { -1e-9 } else { 1.0 + f64::from(n) }).collect();
+        let parameters = MarchingCubes { margin, ..MarchingCubes::default() };
+        let cells = CutCells::new(&Samples::new(grid, values), &parameters, &Monitor::none()).unwrap();
+        let of = |area: f64| area / scale / scale;
+        let weights: f64 =
+            cells.iter().flat_map(|cell| cell.surface_points(&rule)).map(|q| of(q.weight())).sum();
+        let faces: Vec<f64> = cells.iter().flat_map(|c| (0..6).map(move |f| of(c.face_area(f)))).collect();
+        (of(cells.area()), weights, faces, cells.volume() / scale / scale / scale)
+    };
+    for margin in [2f64.powi(-20), 2f64.powi(-40)] {
+        let expected = measures(1.0, margin);
+        for scale in [2f64.powi(-249), 2f64.powi(-205), 2f64.powi(-200), 2f64.powi(249)] {
+            assert_eq!(measures(scale, margin), expected, "{scale:e}");
+        }
+    }
+}
+
+#[test]
 fn every_cell_is_of_the_kind_that_its_corners_say() {
     for samples in inputs() {
         let cells = cut(&samples);

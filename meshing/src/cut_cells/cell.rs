@@ -101,7 +101,7 @@ impl<'a> CutCell<'a> {
     /// Area of the surface in the cell.
     #[must_use]
     pub fn area(&self) -> f64 {
-        self.triangles().map(|t| triangle_normal(t).length()).sum()
+        self.triangles().map(|t| length(triangle_normal(t))).sum()
     }
 
     /// Area of the negative part of a face, without sign.
@@ -110,7 +110,7 @@ impl<'a> CutCell<'a> {
     /// If there is no such face.
     #[must_use]
     pub fn face_area(&self, face: usize) -> f64 {
-        fan(&self.face(face)).map(|t| triangle_normal(t).length()).sum()
+        fan(&self.face(face)).map(|t| length(triangle_normal(t))).sum()
     }
 
     /// The integral of the unit normal over the surface in the cell, pointing to the positive side.
@@ -133,4 +133,13 @@ pub(super) fn tetrahedron_volume([a, b, c, d]: [DVec3; 4]) -> f64 {
 /// The normal of a triangle, as long as its area.
 pub(super) fn triangle_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     0.5 * (b - a).cross(c - a)
+}
+
+/// The length of an area vector. On grids of the smallest spacings the squares of its coordinates are below the smallest number: it is scaled up
+/// by a power of two then, which rounds nothing. Cells of the largest spacings have areas whose squares do not overflow.
+pub(super) fn length(area: DVec3) -> f64 {
+    /// Below this, a square loses digits to underflow; with 2^-400 the coordinate that counts still has a square of 2^-800.
+    const SMALL: f64 = f64::from_bits((1023 - 400) << 52);
+    const UP: f64 = f64::from_bits((1023 + 400) << 52);
+    if area.abs().max_element() < SMALL { (area * UP).length() / UP } else { area.length() }
 }

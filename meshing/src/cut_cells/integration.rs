@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::cell::{fan, tetrahedron_volume, triangle_normal};
+use super::cell::{fan, length, tetrahedron_volume, triangle_normal};
 use super::{CutCell, CutCells};
 use crate::quadrature::{CubeRule, TetrahedronRule, TriangleRule};
 
@@ -40,7 +40,7 @@ impl SurfacePoint {
     /// The weight of the point, an area.
     #[must_use]
     pub fn weight(&self) -> f64 {
-        self.weighted_normal.length()
+        length(self.weighted_normal)
     }
 }
 
