@@ -14,5 +14,5 @@
 mod gauss;
 mod rule;
 
-pub use gauss::gauss_jacobi;
+use gauss::gauss_jacobi;
 pub use rule::{CubeRule, DegreeError, MAX_DEGREE, SegmentRule, SimplexRule, TetrahedronRule, TriangleRule};

@@ -15,7 +15,7 @@ pub struct DegreeError {
     pub degree: u32,
 }
 
-/// A rule on a simplex of `N` corners: barycentric coordinates and weights.
+/// A rule on a simplex of two, three or four corners, `N`: barycentric coordinates and weights. With another `N` its constructor does not compile.
 ///
 /// ```
 /// use welter_meshing::quadrature::TriangleRule;
@@ -46,6 +46,7 @@ impl<const N: usize> SimplexRule<N> {
     /// # Errors
     /// [`DegreeError`] above [`MAX_DEGREE`].
     pub fn of_degree(degree: u32) -> Result<Self, DegreeError> {
+        const { assert!(2 <= N && N <= 4, "a segment, a triangle or a tetrahedron") }
         let count = points_along(degree)?;
         let mut points = vec![([0.0; N], 1.0)];
         // What is left of 1 when the coordinates so far are taken away stands in the last place.
