@@ -38,6 +38,9 @@ impl<'a> CutCell<'a> {
     }
 
     /// Where a point of the cell is; a sample that does not exist is at the lower end of its edge.
+    ///
+    /// # Panics
+    /// If there is no such edge.
     #[must_use]
     pub fn place(&self, point: CellPoint) -> DVec3 {
         if let CellPoint::Edge(edge) = point

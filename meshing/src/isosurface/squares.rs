@@ -36,6 +36,9 @@ pub enum SquarePoint {
 
 impl SquarePoint {
     /// The two corners at the ends of the edge, the lower first; a corner twice.
+    ///
+    /// # Panics
+    /// If there is no such edge.
     #[must_use]
     pub fn ends(self) -> [u8; 2] {
         match self {
@@ -57,10 +60,10 @@ impl SquarePoint {
 pub struct SquareCase(pub u8);
 
 impl SquareCase {
-    /// Whether a corner is negative.
+    /// Whether a corner is negative; not if there is no such corner.
     #[must_use]
     pub fn is_negative(self, corner: u8) -> bool {
-        self.0 >> corner & 1 == 1
+        corner < 4 && self.0 >> corner & 1 == 1
     }
 
     /// The negative part, a convex polygon, counterclockwise from its lowest negative corner; empty if there is none.

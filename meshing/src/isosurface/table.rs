@@ -22,7 +22,8 @@
 //! * on a face whose two negative corners are diagonal, they are joined (120 of the 254 mixed cases have such a face, and then
 //!   the complement's surface has another boundary);
 //! * negative corners that are diagonal in the cell are joined by a tunnel, positive ones are not (cases 24 and 231 and their rotations);
-//! * where four or more samples bound a piece of the surface that is not flat, it is cut along the convex diagonals.
+//! * where four or more samples bound a piece of the surface, it need not be flat, and is cut along the same diagonals wherever the samples are: it may bulge to
+//!   either side.
 //!
 //! For 36 mixed cases the triangles are those of the complement, reversed; a test counts.
 //!
@@ -50,6 +51,9 @@ impl CellPoint {
     }
 
     /// The two corners at the ends of the edge, the lower first; a corner twice.
+    ///
+    /// # Panics
+    /// If there is no such edge.
     #[inline]
     #[must_use]
     pub fn ends(self) -> [u8; 2] {
@@ -79,11 +83,11 @@ impl CellCase {
         self.0 != 0 && self.0 != 255
     }
 
-    /// Whether a corner is negative.
+    /// Whether a corner is negative; not if there is no such corner.
     #[inline]
     #[must_use]
     pub fn is_negative(self, corner: u8) -> bool {
-        self.0 >> corner & 1 == 1
+        corner < CORNERS && self.0 >> corner & 1 == 1
     }
 
     /// The triangles of the surface, counterclockwise seen from the positive side. All corners are samples.
