@@ -6,6 +6,7 @@
 mod collisions;
 mod determinants;
 mod intersections;
+mod isosurfaces;
 mod linear;
 mod meshes;
 mod parities;
@@ -21,6 +22,7 @@ pub use collisions::{
 };
 pub use determinants::{in_spheres, orientations};
 pub use intersections::{boxes, simplices};
+pub use isosurfaces::isosurfaces;
 pub use linear::{agrees, linear_systems};
 pub use meshes::{read_obj, read_off, read_ply, read_stl, self_intersecting};
 pub use parities::root_parities;
@@ -38,6 +40,7 @@ pub const BODIES: &[(&str, Body)] = &[
     ("boxes", boxes),
     ("edge_edge_collisions", edge_edge_collisions),
     ("in_spheres", in_spheres),
+    ("isosurfaces", isosurfaces),
     ("linear_systems", linear_systems),
     ("orientations", orientations),
     ("patch_parity", patch_parity),
