@@ -2,8 +2,8 @@
 //!
 //! # What it promises
 //! * The surface of any samples is closed, oriented and free of self-intersection, with two triangles at every edge and one fan at every vertex,
-//!   by construction: see the proof in [`CellCase`]'s module and below. It takes no tolerance and makes no exception for samples that are
-//!   exactly zero.
+//!   by construction: see the proof in [`CellCase`]'s module and below. No tolerance decides which samples are negative, and there is no exception for
+//!   samples that are exactly zero; vertices that would lie on a node are kept off it by [`MarchingCubes::margin`].
 //! * Vertices are shared by keys, not by position: no crack, no duplicate.
 //! * The same bits for any number of threads.
 //!

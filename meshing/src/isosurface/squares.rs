@@ -133,7 +133,11 @@ pub struct Contours {
 }
 
 impl Contours {
-    /// The segments joined end to end: runs of vertices. A run that is closed has its first vertex again at its end.
+    /// The segments joined end to end: runs of vertices. A run that is closed has its first vertex again at its end. Of two segments that
+    /// begin at one vertex, which contours have not, the first is left out.
+    ///
+    /// # Panics
+    /// If a segment has a vertex without a position.
     #[must_use]
     pub fn lines(&self) -> Vec<Vec<u32>> {
         const NONE: u32 = u32::MAX;
@@ -164,7 +168,8 @@ impl Contours {
     }
 }
 
-/// The contours of samples at a level. A sample that equals the level counts as larger; infinite samples are allowed.
+/// The contours of samples at a level. A sample that equals the level counts as larger; infinite samples are allowed, and have
+/// the contour as near to their finite neighbours as the margin lets it.
 ///
 /// ```
 /// use welter_meshing::{Monitor, grid::{Grid2, Samples}, isosurface::{MarchingSquares, marching_squares}};

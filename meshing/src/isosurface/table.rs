@@ -14,8 +14,9 @@
 //!
 //! Why: in every case every tetrahedron is a cone from one negative corner `v` over a triangle, of positive volume (the build script decides that). About
 //! `v` the region is the whole octant of the cell. So the triangles, seen from `v`, cover the octant's directions, each with the
-//! same orientation; and they are a disc whose rim runs once around the octant's rim. Such a map is one-to-one: the region is star-shaped
-//! about `v`.
+//! same orientation; and they are a disc (the hull's boundary without the facets at `v`) whose rim runs once around the octant's rim, since the polygons of the
+//! three faces at `v` stay convex. A direction is covered as often as the rim winds about it if no triangle counts the other way: once. So the region is
+//! star-shaped about `v`.
 //!
 //! # What it does not promise
 //! The same surface, reversed, for the complement of a set. The rule joins negative corners within a cell, always:

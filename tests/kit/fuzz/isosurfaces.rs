@@ -55,8 +55,9 @@ pub fn isosurfaces(bytes: &[u8]) {
 /// A grid whose first node is a multiple of its granule and whose spacing is one; near to where that is no longer exact, too.
 fn draw_grid<const D: usize>(entropy: &mut Entropy<'_>) -> Option<Grid<D>> {
     let mut cells = [(); D].map(|()| u32::from(entropy.below(4)) + 1);
-    if entropy.below(32) == 31 {
-        cells = [1; D];
+    if entropy.below(16) == 15 {
+        // With two cells across there are rows that touch the wall at their ends only.
+        cells = [(); D].map(|()| u32::from(entropy.below(2)) + 1);
         cells[0] = entropy.pick(&ROWS);
     }
     let granule = 2f64.powi(entropy.pick(&[-2, 0, -24, -2, 120, -180]));
@@ -302,7 +303,8 @@ fn contours(samples: &Samples<2>, parameters: &MarchingSquares) {
         .flat_map(|line| line.windows(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>())
         .collect();
     let mut segments = contours.segments.clone();
-    (joined.sort_unstable(), segments.sort_unstable());
+    joined.sort_unstable();
+    segments.sort_unstable();
     assert_eq!(joined, segments);
     let below = |node| samples.at(node) < parameters.level;
     let edges = (0..grid.node_count()).map(|n| grid.node_at(n)).flat_map(|node| {
