@@ -15,6 +15,7 @@
 #![forbid(unsafe_code)]
 
 pub mod cut_cells;
+pub mod distance;
 pub mod field;
 pub mod grid;
 pub mod io;

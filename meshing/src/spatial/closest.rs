@@ -141,6 +141,11 @@ impl Candidate {
     }
 }
 
+/// The computed distance of the origin to a triangle placed relative to the query: that which [`Bvh::closest_point`] compares.
+pub(crate) fn triangle_distance(t: [DVec3; 3]) -> f64 {
+    closest_on_triangle(t).distance
+}
+
 /// The point of a triangle, relative to the query, that is closest to the origin.
 fn closest_on_triangle(t: [DVec3; 3]) -> Candidate {
     let edges = [0, 1, 2].map(|k| closest_on_edge(t, k));

@@ -55,6 +55,11 @@ impl Frame {
         self.scale.apply(point - self.center)
     }
 
+    /// A length in the unit of the frame; may be infinite.
+    pub(crate) fn scaled(&self, length: f64) -> f64 {
+        self.scale.apply(DVec3::splat(length)).x
+    }
+
     /// The mapped point.
     #[inline]
     pub(crate) fn map(&self, point: DVec3) -> [f32; 3] {

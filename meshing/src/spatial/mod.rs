@@ -14,9 +14,9 @@
 
 mod box3;
 mod bvh;
-mod closest;
+pub(crate) mod closest;
 mod descent;
-mod frame;
+pub(crate) mod frame;
 mod ray;
 mod self_intersection;
 mod tree;

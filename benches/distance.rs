@@ -1,0 +1,32 @@
+//! scratch
+#![allow(clippy::print_stdout)]
+use std::time::Instant;
+use welter_meshing::{DVec3, Monitor, distance::*, grid::Grid3, shapes::*, spatial::*};
+fn main() {
+    let m = Monitor::none();
+    for e in [0.019_f64] {
+        let mesh = sphere(&Sphere { edge_length: e, ..Sphere::default() }).unwrap();
+        let n: u32 = 128;
+        let grid = Grid3::covering([-1.1; 3], [1.1; 3], 2.2 / f64::from(n-1), 0).unwrap();
+        println!("{} triangles, {:?} nodes", mesh.triangles().len(), grid.nodes());
+        for _ in 0..3 {
+            let t = Instant::now();
+            let w = grid_winding_numbers(&mesh, &grid, &m).unwrap();
+            println!("winding {:?} {}", t.elapsed(), w.on_surface().len());
+            let t = Instant::now();
+            let p = DistanceParameters { band: 3.0 * grid.spacing(), ..Default::default() };
+            let f = signed_distance(&mesh, &grid, &p, &m).unwrap();
+            println!("band {:?}", t.elapsed());
+            let t = Instant::now();
+            let f = signed_distance(&mesh, &grid, &Default::default(), &m).unwrap();
+            println!("full {:?}", t.elapsed());
+            let bvh = Bvh::new(&mesh);
+            let t = Instant::now();
+            let mut bad = 0; let mut count = 0;
+            for i in (0..grid.node_count()).step_by(97) { count += 1;
+                let c = bvh.closest_point(grid.position(grid.node_at(i))).unwrap();
+                if c.distance != f.distances.values()[i].abs() { bad += 1; } }
+            println!("one by one {:?} per node, {} bad", t.elapsed() / count, bad);
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! [`Nearest`]: the closest triangles of eight points at a time.
+//!
+//! # What it promises
+//! For each point the distance and the triangle of [`Bvh::closest_point`], bit for bit, if that distance is within the band.
+//!
+//! # Method
+//! One descent of the hierarchy for eight neighbouring points. All bounds are in single precision, in the frame of the
+//! hierarchy: boxes of nodes and then the triangles themselves ([`FlatTriangle`]) are compared with a limit for each point, the least
+//! distance found so far and twice the bound of its error. Triangles within the limit of some point are
+//! kept, and those still within it at the end are computed in double precision as `spatial::closest` does. The limits
+//! start from the triangles found for the eight points before.
+//!
+//! # Why nothing is lost
+//! Let t be the tolerance, T the triangle that wins, S the one with the least single-precision distance s. In double precision
+//! T is not farther than S, so its true distance exceeds that of S by a small part of t only: errors in double precision are
+//! below 2^-34, and t at least 2^-17. True distances differ from those in single precision by at most 107/128 t, so T has
+//! at most s + 107/64 t and a little, less than s + 2 t. The same holds for the boxes around it. Triangles that are
+//! slivers may err by more in double precision: they are left out by their boxes only (their computed point lies in the
+//! box), and they lower no limit.
+
+use glam::{DVec3, Vec3A, Vec4};
+use obvhs::bvh2::node::Bvh2Node;
+
+use super::flat::{FlatTriangle, LANES, Lanes, Points, tolerance};
+use crate::spatial::{Box3, Bvh};
+use crate::spatial::closest::triangle_distance;
+use crate::surface::TriId;
+
+/// Relative roundings of a square, its root and their comparison, with much to spare.
+const ROUNDING: f32 = 1.0 + 1.0 / (1 << 20) as f32;
+
+/// Largest coordinate in the frame of points that are looked at in single precision: there the tolerance is a part in 500 of
+/// the scene.
+pub(super) const FARTHEST: f64 = 256.0;
+
+/// A hierarchy whose triangles are ready for many points.
+pub(super) struct Prepared<'a> {
+    pub(super) bvh: &'a Bvh<'a>,
+    /// In the order of leaves.
+    flat: Vec<FlatTriangle>,
+}
+
+impl<'a> Prepared<'a> {
+    pub(super) fn new(bvh: &'a Bvh<'a>) -> Self {
+        use rayon::prelude::*;
+        let tree = bvh.tree();
+        let of = |&t: &u32| FlatTriangle::of(bvh.mesh().corners(TriId(t)), &tree.frame);
+        Self { bvh, flat: tree.bvh.primitive_indices.par_iter().with_min_len(1024).map(of).collect() }
+    }
+
+    fn id(&self, leaf: u32) -> TriId {
+        TriId(self.bvh.tree().bvh.primitive_indices[leaf as usize])
+    }
+}
+
+/// The closest triangle of a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Found {
+    pub(super) distance: f64,
+    pub(super) triangle: TriId,
+}
+
+/// A search for closest triangles, with the room it works in and the triangles found last.
+pub(super) struct Nearest<'a> {
+    prepared: &'a Prepared<'a>,
+    tolerance: f32,
+    /// The largest limit, from the band.
+    band: f32,
+    stack: Vec<u32>,
+    kept: Vec<(u32, [f32; LANES])>,
+    seeds: Vec<u32>,
+}
+
+impl<'a> Nearest<'a> {
+    /// For points at most `reach` from the middle of the frame along each axis, and distances of at most `band`.
+    pub(super) fn new(prepared: &'a Prepared<'a>, reach: f64, band: f64) -> Self {
+        let tolerance = tolerance(reach.max(1.0)) as f32;
+        let band = prepared.bvh.tree().frame.scaled(band);
+        // Beyond any distance there is (points within FARTHEST), and far from overflow when squared.
+        let band = (band.min(1e6) as f32 + 2.0 * tolerance) * ROUNDING;
+        Self {
+            prepared,
+            tolerance,
+            band,
+            stack: Vec::with_capacity(64),
+            kept: Vec::with_capacity(64),
+            seeds: Vec::with_capacity(LANES),
+        }
+    }
+
+    /// Begins with points in a box; whether there may be triangles within the band of them.
+    pub(super) fn begin(&mut self, around: &Box3) -> bool {
+        let tree = self.prepared.bvh.tree();
+        let [low, high] = [around.min, around.max].map(|p| Vec3A::from_array(tree.frame.map(p)));
+        let gap = |node: &Bvh2Node| {
+            let (min, max) = (node.aabb().min, node.aabb().max);
+            (min - high).max(low - max).max(Vec3A::ZERO).length_squared()
+        };
+        let limit = self.band * self.band * ROUNDING;
+        let nodes = &tree.bvh.nodes;
+        self.stack.clear();
+        self.stack.extend(nodes.first().map(|_| 0));
+        while let Some(index) = self.stack.pop() {
+            let node = &nodes[index as usize];
+            if gap(node) > limit {
+                continue;
+            }
+            if node.is_leaf() {
+                self.seeds.push(node.first_index);
+                return true;
+            }
+            let [a, b] = [node.first_index, node.first_index + 1];
+            let ordered = if gap(&nodes[b as usize]) < gap(&nodes[a as usize]) { [a, b] } else { [b, a] };
+            self.stack.extend(ordered);
+        }
+        false
+    }
+
+    /// The closest triangles of the points within the band: at `None` there is none, or it may be farther.
+    pub(super) fn of(&mut self, at: &[DVec3; LANES]) -> [Option<Found>; LANES] {
+        let frame = &self.prepared.bvh.tree().frame;
+        let placed = at.map(|p| frame.map(p));
+        let axis = |k: usize| Lanes::of(std::array::from_fn(|lane| placed[lane][k]));
+        let points = Points { x: axis(0), y: axis(1), z: axis(2) };
+        let limits = self.descend(&points).to_array();
+        let mut found = [None; LANES];
+        self.seeds.clear();
+        for lane in 0..LANES {
+            if let Some((found_here, leaf)) = self.settle(at[lane], lane, limits[lane]) {
+                found[lane] = Some(found_here);
+                if !self.seeds.contains(&leaf) {
+                    self.seeds.push(leaf);
+                }
+            }
+        }
+        found
+    }
+
+    /// Collects the triangles within the limits of some of the points; returns the limits of the squared distances.
+    fn descend(&mut self, points: &Points) -> Lanes {
+        let tree = &self.prepared.bvh.tree().bvh;
+        let mut least = Lanes::splat(f32::INFINITY);
+        for &seed in &self.seeds {
+            least = least.min(self.prepared.flat[seed as usize].squared_distances(points));
+        }
+        let mut limits = self.limits(least);
+        self.kept.clear();
+        self.stack.clear();
+        if !tree.nodes.is_empty() {
+            self.stack.push(0);
+        }
+        while let Some(index) = self.stack.pop() {
+            let node = &tree.nodes[index as usize];
+            if !box_distances(node.aabb(), points).any_at_most(limits) {
+                continue;
+            }
+            if !node.is_leaf() {
+                self.stack.extend([node.first_index, node.first_index + 1]);
+                continue;
+            }
+            let flat = &self.prepared.flat[node.first_index as usize];
+            if flat.sliver {
+                self.kept.push((node.first_index, [0.0; LANES]));
+                continue;
+            }
+            let squares = flat.squared_distances(points);
+            if squares.any_at_most(limits) {
+                self.kept.push((node.first_index, squares.to_array()));
+                least = least.min(squares);
+                limits = self.limits(least);
+            }
+        }
+        limits
+    }
+
+    /// What squared distances a triangle may have that is not farther than the nearest so far.
+    fn limits(&self, least: Lanes) -> Lanes {
+        let (band, slack) = (Vec4::splat(self.band), Vec4::splat(2.0 * self.tolerance));
+        least.map(|square| {
+            let limit = (square.sqrt() + slack).min(band);
+            limit * limit * ROUNDING
+        })
+    }
+
+    /// The closest of the triangles kept for a point, in double precision, the lowest of those at the same distance; and its leaf.
+    fn settle(&self, at: DVec3, lane: usize, limit: f32) -> Option<(Found, u32)> {
+        let bvh = self.prepared.bvh;
+        let local = bvh.tree().frame.about(at);
+        let mut best: Option<(f64, TriId, u32)> = None;
+        for &(leaf, squares) in &self.kept {
+            if squares[lane] > limit {
+                continue;
+            }
+            let triangle = self.prepared.id(leaf);
+            let distance = triangle_distance(bvh.mesh().corners(triangle).map(|p| local.place(p)));
+            if best.is_none_or(|(least, lowest, _)| {
+                distance < least || (distance == least && triangle < lowest)
+            }) {
+                best = Some((distance, triangle, leaf));
+            }
+        }
+        best.map(|(distance, triangle, leaf)| (Found { distance: local.length(distance), triangle }, leaf))
+    }
+}
+
+/// Squared distances of the points to a box.
+#[inline(always)]
+fn box_distances(b: &obvhs::aabb::Aabb, points: &Points) -> Lanes {
+    Lanes([0, 1].map(|half| {
+        let along = |low: f32, high: f32, x: Vec4| {
+            (Vec4::splat(low) - x).max(x - Vec4::splat(high)).max(Vec4::ZERO)
+        };
+        let x = along(b.min.x, b.max.x, points.x.0[half]);
+        let y = along(b.min.y, b.max.y, points.y.0[half]);
+        let z = along(b.min.z, b.max.z, points.z.0[half]);
+        x * x + y * y + z * z
+    }))
+}
