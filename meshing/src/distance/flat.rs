@@ -22,8 +22,6 @@
 
 use glam::{DVec2, DVec3, Vec4};
 
-use crate::spatial::frame::Frame;
-
 /// Points that are looked at together.
 pub(super) const LANES: usize = 8;
 
@@ -116,9 +114,8 @@ impl Edge {
 }
 
 impl FlatTriangle {
-    /// A triangle of the scene.
-    pub(super) fn of(corners: [DVec3; 3], frame: &Frame) -> Self {
-        let corners = corners.map(|p| frame.place(p));
+    /// The triangle with these corners in the frame of the scene.
+    pub(super) fn of(corners: [DVec3; 3]) -> Self {
         let length = |e: usize| (corners[(e + 1) % 3] - corners[e]).length_squared();
         let longest = (1..3).fold(0, |best, e| if length(e) > length(best) { e } else { best });
         let [a, b, c] = [0, 1, 2].map(|k| corners[(longest + k) % 3]);

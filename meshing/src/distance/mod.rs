@@ -1,5 +1,6 @@
 //! Distance fields: numbers at the nodes of a grid that tell how far a surface is, and on which side of it they are.
 
+mod caps;
 mod field;
 mod flat;
 mod nearest;

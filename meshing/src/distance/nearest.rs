@@ -21,6 +21,7 @@
 use glam::{DVec3, Vec3A, Vec4};
 use obvhs::bvh2::node::Bvh2Node;
 
+use super::caps::{Cap, caps};
 use super::flat::{FlatTriangle, LANES, Lanes, Points, tolerance};
 use crate::spatial::{Box3, Bvh};
 use crate::spatial::closest::triangle_distance;
@@ -38,14 +39,21 @@ pub(super) struct Prepared<'a> {
     pub(super) bvh: &'a Bvh<'a>,
     /// In the order of leaves.
     flat: Vec<FlatTriangle>,
+    /// In the order of nodes.
+    caps: Vec<Cap>,
 }
 
 impl<'a> Prepared<'a> {
     pub(super) fn new(bvh: &'a Bvh<'a>) -> Self {
         use rayon::prelude::*;
         let tree = bvh.tree();
-        let of = |&t: &u32| FlatTriangle::of(bvh.mesh().corners(TriId(t)), &tree.frame);
-        Self { bvh, flat: tree.bvh.primitive_indices.par_iter().with_min_len(1024).map(of).collect() }
+        let corners = |t: u32| bvh.mesh().corners(TriId(t)).map(|p| tree.frame.place(p));
+        let flat = || {
+            let leaves = tree.bvh.primitive_indices.par_iter().with_min_len(1024);
+            leaves.map(|&t| FlatTriangle::of(corners(t))).collect()
+        };
+        let (flat, caps) = rayon::join(flat, || caps(&tree.bvh, corners));
+        Self { bvh, flat, caps }
     }
 
     fn id(&self, leaf: u32) -> TriId {
@@ -122,7 +130,8 @@ impl<'a> Nearest<'a> {
         let placed = at.map(|p| frame.map(p));
         let axis = |k: usize| Lanes::of(std::array::from_fn(|lane| placed[lane][k]));
         let points = Points { x: axis(0), y: axis(1), z: axis(2) };
-        let limits = self.descend(&points).to_array();
+        let least = self.descend(&points);
+        let limits = self.limits(least, 2.0).to_array();
         let mut found = [None; LANES];
         self.seeds.clear();
         for lane in 0..LANES {
@@ -136,14 +145,14 @@ impl<'a> Nearest<'a> {
         found
     }
 
-    /// Collects the triangles within the limits of some of the points; returns the limits of the squared distances.
+    /// Collects the triangles within the limits of some of the points; returns the least squared distances.
     fn descend(&mut self, points: &Points) -> Lanes {
         let tree = &self.prepared.bvh.tree().bvh;
         let mut least = Lanes::splat(f32::INFINITY);
         for &seed in &self.seeds {
             least = least.min(self.prepared.flat[seed as usize].squared_distances(points));
         }
-        let mut limits = self.limits(least);
+        let mut limits = self.limits(least, 3.0);
         self.kept.clear();
         self.stack.clear();
         if !tree.nodes.is_empty() {
@@ -151,7 +160,9 @@ impl<'a> Nearest<'a> {
         }
         while let Some(index) = self.stack.pop() {
             let node = &tree.nodes[index as usize];
-            if !box_distances(node.aabb(), points).any_at_most(limits) {
+            let near = box_distances(node.aabb(), points).any_at_most(limits)
+                && self.prepared.caps[index as usize].squared_distances(points).any_at_most(limits);
+            if !near {
                 continue;
             }
             if !node.is_leaf() {
@@ -167,15 +178,15 @@ impl<'a> Nearest<'a> {
             if squares.any_at_most(limits) {
                 self.kept.push((node.first_index, squares.to_array()));
                 least = least.min(squares);
-                limits = self.limits(least);
+                limits = self.limits(least, 3.0);
             }
         }
-        limits
+        least
     }
 
     /// What squared distances a triangle may have that is not farther than the nearest so far.
-    fn limits(&self, least: Lanes) -> Lanes {
-        let (band, slack) = (Vec4::splat(self.band), Vec4::splat(2.0 * self.tolerance));
+    fn limits(&self, least: Lanes, tolerances: f32) -> Lanes {
+        let (band, slack) = (Vec4::splat(self.band), Vec4::splat(tolerances * self.tolerance));
         least.map(|square| {
             let limit = (square.sqrt() + slack).min(band);
             limit * limit * ROUNDING
