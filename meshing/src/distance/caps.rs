@@ -17,7 +17,7 @@
 use glam::{DVec3, Vec4};
 use obvhs::bvh2::Bvh2;
 
-use super::flat::{Lanes, Points};
+use super::flat::{Lanes, Points, square_root};
 
 /// A cylinder: middle, unit axis, half of its height, radius; in the frame of the scene.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,17 +38,15 @@ impl Cap {
     /// Lower bounds of the squared distances of the points.
     #[inline(always)]
     pub(super) fn squared_distances(&self, points: &Points) -> Lanes {
-        Lanes([0, 1].map(|half| {
-            let x = points.x.0[half] - self.middle[0];
-            let y = points.y.0[half] - self.middle[1];
-            let z = points.z.0[half] - self.middle[2];
+        points.each(|x, y, z| {
+            let (x, y, z) = (x - self.middle[0], y - self.middle[1], z - self.middle[2]);
             let height = x * self.axis[0] + y * self.axis[1] + z * self.axis[2];
             let square = x * x + y * y + z * z;
-            let across = (square - height * height).max(Vec4::ZERO).sqrt();
+            let across = square_root((square - height * height).max(Vec4::ZERO));
             let above = (height.abs() - self.half_height).max(Vec4::ZERO);
             let beside = (across - self.radius).max(Vec4::ZERO);
             above * above + beside * beside - square * CANCELLED
-        }))
+        })
     }
 }
 

@@ -49,10 +49,13 @@ impl Lanes {
         [a, b, c, d, e, f, g, h]
     }
 
+    #[inline(always)]
     pub(super) fn map(self, f: impl Fn(Vec4) -> Vec4) -> Self {
-        Self(self.0.map(f))
+        // Not `array::map`, which is not inlined here.
+        Self([f(self.0[0]), f(self.0[1])])
     }
 
+    #[inline(always)]
     pub(super) fn min(self, other: Self) -> Self {
         Self([self.0[0].min(other.0[0]), self.0[1].min(other.0[1])])
     }
@@ -70,6 +73,22 @@ pub(super) struct Points {
     pub(super) x: Lanes,
     pub(super) y: Lanes,
     pub(super) z: Lanes,
+}
+
+impl Points {
+    /// A function of each of the points.
+    #[inline(always)]
+    pub(super) fn each(&self, f: impl Fn(Vec4, Vec4, Vec4) -> Vec4) -> Lanes {
+        let ([x0, x1], [y0, y1], [z0, z1]) = (self.x.0, self.y.0, self.z.0);
+        Lanes([f(x0, y0, z0), f(x1, y1, z1)])
+    }
+}
+
+/// Square roots, by the vector unit.
+#[inline(always)]
+pub(super) fn square_root(v: Vec4) -> Vec4 {
+    let [a, b, c, d] = v.to_array();
+    Vec4::new(a.sqrt(), b.sqrt(), c.sqrt(), d.sqrt())
 }
 
 /// A triangle in its own frame.
@@ -139,11 +158,10 @@ impl FlatTriangle {
     /// Squared distances of the points.
     #[inline(always)]
     pub(super) fn squared_distances(&self, points: &Points) -> Lanes {
-        Lanes([0, 1].map(|half| {
-            let x = points.x.0[half] - self.origin[0];
-            let y = points.y.0[half] - self.origin[1];
-            let z = points.z.0[half] - self.origin[2];
-            let [u, v, w] = self.axes.map(|axis| x * axis[0] + y * axis[1] + z * axis[2]);
+        points.each(|x, y, z| {
+            let (x, y, z) = (x - self.origin[0], y - self.origin[1], z - self.origin[2]);
+            let along = |axis: &[f32; 3]| x * axis[0] + y * axis[1] + z * axis[2];
+            let (u, v, w) = (along(&self.axes[0]), along(&self.axes[1]), along(&self.axes[2]));
             let beyond = u - u.max(Vec4::ZERO).min(Vec4::splat(self.base));
             let first = beyond * beyond + v * v;
             let (second, second_side) = self.second.distance(u, v);
@@ -151,7 +169,7 @@ impl FlatTriangle {
             let inside = v.min(second_side).min(third_side).cmpge(Vec4::ZERO);
             let in_plane = Vec4::select(inside, Vec4::ZERO, first.min(second).min(third));
             in_plane + w * w
-        }))
+        })
     }
 }
 

@@ -22,7 +22,7 @@ use glam::{DVec3, Vec3A, Vec4};
 use obvhs::bvh2::node::Bvh2Node;
 
 use super::caps::{Cap, caps};
-use super::flat::{FlatTriangle, LANES, Lanes, Points, tolerance};
+use super::flat::{FlatTriangle, LANES, Lanes, Points, square_root, tolerance};
 use crate::spatial::{Box3, Bvh};
 use crate::spatial::closest::triangle_distance;
 use crate::surface::TriId;
@@ -188,7 +188,7 @@ impl<'a> Nearest<'a> {
     fn limits(&self, least: Lanes, tolerances: f32) -> Lanes {
         let (band, slack) = (Vec4::splat(self.band), Vec4::splat(tolerances * self.tolerance));
         least.map(|square| {
-            let limit = (square.sqrt() + slack).min(band);
+            let limit = (square_root(square) + slack).min(band);
             limit * limit * ROUNDING
         })
     }
@@ -217,13 +217,11 @@ impl<'a> Nearest<'a> {
 /// Squared distances of the points to a box.
 #[inline(always)]
 fn box_distances(b: &obvhs::aabb::Aabb, points: &Points) -> Lanes {
-    Lanes([0, 1].map(|half| {
-        let along = |low: f32, high: f32, x: Vec4| {
-            (Vec4::splat(low) - x).max(x - Vec4::splat(high)).max(Vec4::ZERO)
-        };
-        let x = along(b.min.x, b.max.x, points.x.0[half]);
-        let y = along(b.min.y, b.max.y, points.y.0[half]);
-        let z = along(b.min.z, b.max.z, points.z.0[half]);
+    points.each(|x, y, z| {
+        let along = |low: f32, high: f32, x: Vec4| (Vec4::splat(low) - x).max(x - high).max(Vec4::ZERO);
+        let x = along(b.min.x, b.max.x, x);
+        let y = along(b.min.y, b.max.y, y);
+        let z = along(b.min.z, b.max.z, z);
         x * x + y * y + z * z
-    }))
+    })
 }
