@@ -16,6 +16,7 @@
 
 use glam::{DVec3, Vec4};
 use obvhs::bvh2::Bvh2;
+use rayon::prelude::*;
 
 use super::flat::{Lanes, Points, square_root};
 
@@ -94,6 +95,19 @@ impl Cylinder {
         Self { middle, area, axis, half_height: 0.5 * (high - low), radius }
     }
 
+    /// With the same axis, and no larger than the triangles need.
+    fn measured(&self, triangles: &[[DVec3; 3]]) -> Self {
+        let (mut low, mut high, mut square) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
+        for &corner in triangles.iter().flatten() {
+            let offset = corner - self.middle;
+            let height = offset.dot(self.axis);
+            (low, high) = (low.min(height), high.max(height));
+            square = square.max((offset - height * self.axis).length_squared());
+        }
+        let middle = self.middle + 0.5 * (low + high) * self.axis;
+        Self { middle, half_height: 0.5 * (high - low), radius: square.sqrt(), ..*self }
+    }
+
     fn cap(&self) -> Cap {
         let single = |v: DVec3| v.to_array().map(|t| t as f32);
         let up = |length: f64| (length * ROUNDED_UP) as f32;
@@ -115,16 +129,46 @@ fn circle_around([(p, r), (q, s)]: [(DVec3, f64); 2]) -> (DVec3, f64) {
     }
 }
 
+/// Triangles below a node up to which its cylinder is measured on their corners: the work for them is a factor of log2 of this on a
+/// pass over the mesh. Cylinders around cylinders are some times too thick, which matters near the leaves most.
+const MEASURED: u32 = 256;
+
 /// The caps of all nodes; `corners` gives the triangle of a leaf in the frame of the scene.
-pub(super) fn caps(tree: &Bvh2, corners: impl Fn(u32) -> [DVec3; 3]) -> Vec<Cap> {
-    let mut cylinders = vec![Cylinder::default(); tree.nodes.len()];
-    for (index, node) in tree.nodes.iter().enumerate().rev() {
-        cylinders[index] = if node.is_leaf() {
-            Cylinder::of_triangle(corners(tree.primitive_indices[node.first_index as usize]))
+pub(super) fn caps(tree: &Bvh2, corners: impl Fn(u32) -> [DVec3; 3] + Sync) -> Vec<Cap> {
+    let nodes = &tree.nodes;
+    let mut cylinders = vec![Cylinder::default(); nodes.len()];
+    let mut counts = vec![1; nodes.len()];
+    // Children come after their parents.
+    for (index, node) in nodes.iter().enumerate().rev() {
+        if node.is_leaf() {
+            let triangle = tree.primitive_indices[node.first_index as usize];
+            cylinders[index] = Cylinder::of_triangle(corners(triangle));
         } else {
             let [a, b] = [node.first_index as usize, node.first_index as usize + 1];
-            Cylinder::around([&cylinders[a], &cylinders[b]])
-        };
+            cylinders[index] = Cylinder::around([&cylinders[a], &cylinders[b]]);
+            counts[index] = counts[a] + counts[b];
+        }
     }
-    cylinders.iter().map(Cylinder::cap).collect()
+    // Leaves from left to right, so that those below a node are a range.
+    let mut starts = vec![0_u32; nodes.len()];
+    let mut leaves = vec![[DVec3::ZERO; 3]; tree.primitive_indices.len()];
+    for (index, node) in nodes.iter().enumerate() {
+        if node.is_leaf() {
+            let triangle = tree.primitive_indices[node.first_index as usize];
+            leaves[starts[index] as usize] = corners(triangle);
+        } else {
+            let [a, b] = [node.first_index as usize, node.first_index as usize + 1];
+            starts[a] = starts[index];
+            starts[b] = starts[a] + counts[a];
+        }
+    }
+    let measured = |(index, cylinder): (usize, &Cylinder)| {
+        if (2..=MEASURED).contains(&counts[index]) {
+            let first = starts[index] as usize;
+            cylinder.measured(&leaves[first..first + counts[index] as usize]).cap()
+        } else {
+            cylinder.cap()
+        }
+    };
+    cylinders.par_iter().enumerate().with_min_len(1024).map(measured).collect()
 }

@@ -23,8 +23,8 @@ use obvhs::bvh2::node::Bvh2Node;
 
 use super::caps::{Cap, caps};
 use super::flat::{FlatTriangle, LANES, Lanes, Points, square_root, tolerance};
-use crate::spatial::{Box3, Bvh};
 use crate::spatial::closest::triangle_distance;
+use crate::spatial::{Box3, Bvh};
 use crate::surface::TriId;
 
 /// Relative roundings of a square, its root and their comparison, with much to spare.
@@ -204,9 +204,9 @@ impl<'a> Nearest<'a> {
             }
             let triangle = self.prepared.id(leaf);
             let distance = triangle_distance(bvh.mesh().corners(triangle).map(|p| local.place(p)));
-            if best.is_none_or(|(least, lowest, _)| {
-                distance < least || (distance == least && triangle < lowest)
-            }) {
+            if best
+                .is_none_or(|(least, lowest, _)| distance < least || (distance == least && triangle < lowest))
+            {
                 best = Some((distance, triangle, leaf));
             }
         }
