@@ -8,6 +8,7 @@
 )]
 
 mod cut_cells;
+mod distance;
 mod io;
 mod isosurface;
 mod shapes;

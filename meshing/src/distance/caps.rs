@@ -16,17 +16,29 @@
 
 use glam::{DVec3, Vec4};
 use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::node::Bvh2Node;
 use rayon::prelude::*;
 
 use super::flat::{Lanes, Points, square_root};
 
 /// A cylinder: middle, unit axis, half of its height, radius; in the frame of the scene.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Cap {
     middle: [f32; 3],
     axis: [f32; 3],
     half_height: f32,
     radius: f32,
+    /// What the node is made of.
+    pub(super) below: Below,
+}
+
+/// What a node of the hierarchy is made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Below {
+    /// Two nodes, this and the next.
+    Children(u32),
+    /// A triangle, by its place in the order of leaves.
+    Leaf(u32),
 }
 
 /// Error of the squared distance from the axis, as a part of the squared distance from the middle; twice what is proven.
@@ -108,11 +120,12 @@ impl Cylinder {
         Self { middle, half_height: 0.5 * (high - low), radius: square.sqrt(), ..*self }
     }
 
-    fn cap(&self) -> Cap {
+    fn cap(&self, node: &Bvh2Node) -> Cap {
+        let below = if node.is_leaf() { Below::Leaf } else { Below::Children }(node.first_index);
         let single = |v: DVec3| v.to_array().map(|t| t as f32);
         let up = |length: f64| (length * ROUNDED_UP) as f32;
         let [middle, axis] = [self.middle, self.axis].map(single);
-        Cap { middle, axis, half_height: up(self.half_height), radius: up(self.radius) }
+        Cap { middle, axis, half_height: up(self.half_height), radius: up(self.radius), below }
     }
 }
 
@@ -165,9 +178,9 @@ pub(super) fn caps(tree: &Bvh2, corners: impl Fn(u32) -> [DVec3; 3] + Sync) -> V
     let measured = |(index, cylinder): (usize, &Cylinder)| {
         if (2..=MEASURED).contains(&counts[index]) {
             let first = starts[index] as usize;
-            cylinder.measured(&leaves[first..first + counts[index] as usize]).cap()
+            cylinder.measured(&leaves[first..first + counts[index] as usize]).cap(&nodes[index])
         } else {
-            cylinder.cap()
+            cylinder.cap(&nodes[index])
         }
     };
     cylinders.par_iter().enumerate().with_min_len(1024).map(measured).collect()

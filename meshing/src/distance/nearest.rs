@@ -5,23 +5,23 @@
 //!
 //! # Method
 //! One descent of the hierarchy for eight neighbouring points. All bounds are in single precision, in the frame of the
-//! hierarchy: boxes of nodes and then the triangles themselves ([`FlatTriangle`]) are compared with a limit for each point, the least
-//! distance found so far and twice the bound of its error. Triangles within the limit of some point are
-//! kept, and those still within it at the end are computed in double precision as `spatial::closest` does. The limits
-//! start from the triangles found for the eight points before.
+//! hierarchy: cylinders around its nodes ([`Cap`]) and then the triangles themselves ([`FlatTriangle`]) are compared with a
+//! limit for each point, the least distance found so far and some tolerance. Triangles within the limit of some point
+//! are kept, and those still within it at the end are computed in double precision as `spatial::closest` does. The
+//! limits start from the triangles found for the eight points before.
 //!
 //! # Why nothing is lost
-//! Let t be the tolerance, T the triangle that wins, S the one with the least single-precision distance s. In double precision
-//! T is not farther than S, so its true distance exceeds that of S by a small part of t only: errors in double precision are
-//! below 2^-34, and t at least 2^-17. True distances differ from those in single precision by at most 107/128 t, so T has
-//! at most s + 107/64 t and a little, less than s + 2 t. The same holds for the boxes around it. Triangles that are
-//! slivers may err by more in double precision: they are left out by their boxes only (their computed point lies in the
-//! box), and they lower no limit.
+//! Let t be the tolerance, T the triangle that wins, S the one with the least single-precision distance s that is no sliver. In
+//! double precision T is not farther than S. No distance in double precision is less than the true one by more than
+//! roundings, since its point is a convex combination of the corners; and that of S is not more than 2^-34 too large. So the true distance of T
+//! is at most that of S and 2^-33, with t at least 2^-17. True distances differ from those in single precision by at most
+//! 107/128 t, so T has at most s + 107/64 t and a little, less than s + 2 t. Cylinders, whose values exceed true
+//! distances by less than t/3, are compared with s + 3 t.
 
 use glam::{DVec3, Vec3A, Vec4};
 use obvhs::bvh2::node::Bvh2Node;
 
-use super::caps::{Cap, caps};
+use super::caps::{Below, Cap, caps};
 use super::flat::{FlatTriangle, LANES, Lanes, Points, square_root, tolerance};
 use crate::spatial::closest::triangle_distance;
 use crate::spatial::{Box3, Bvh};
@@ -147,38 +147,38 @@ impl<'a> Nearest<'a> {
 
     /// Collects the triangles within the limits of some of the points; returns the least squared distances.
     fn descend(&mut self, points: &Points) -> Lanes {
-        let tree = &self.prepared.bvh.tree().bvh;
+        let caps = &self.prepared.caps;
         let mut least = Lanes::splat(f32::INFINITY);
         for &seed in &self.seeds {
-            least = least.min(self.prepared.flat[seed as usize].squared_distances(points));
+            let seed = &self.prepared.flat[seed as usize];
+            if !seed.sliver {
+                least = least.min(seed.squared_distances(points));
+            }
         }
         let mut limits = self.limits(least, 3.0);
         self.kept.clear();
         self.stack.clear();
-        if !tree.nodes.is_empty() {
-            self.stack.push(0);
-        }
+        self.stack.extend(caps.first().map(|_| 0));
         while let Some(index) = self.stack.pop() {
-            let node = &tree.nodes[index as usize];
-            let near = box_distances(node.aabb(), points).any_at_most(limits)
-                && self.prepared.caps[index as usize].squared_distances(points).any_at_most(limits);
-            if !near {
+            let cap = &caps[index as usize];
+            if !cap.squared_distances(points).any_at_most(limits) {
                 continue;
             }
-            if !node.is_leaf() {
-                self.stack.extend([node.first_index, node.first_index + 1]);
-                continue;
-            }
-            let flat = &self.prepared.flat[node.first_index as usize];
-            if flat.sliver {
-                self.kept.push((node.first_index, [0.0; LANES]));
-                continue;
-            }
+            let leaf = match cap.below {
+                Below::Children(first) => {
+                    self.stack.extend([first, first + 1]);
+                    continue;
+                }
+                Below::Leaf(leaf) => leaf,
+            };
+            let flat = &self.prepared.flat[leaf as usize];
             let squares = flat.squared_distances(points);
             if squares.any_at_most(limits) {
-                self.kept.push((node.first_index, squares.to_array()));
-                least = least.min(squares);
-                limits = self.limits(least, 3.0);
+                self.kept.push((leaf, squares.to_array()));
+                if !flat.sliver {
+                    least = least.min(squares);
+                    limits = self.limits(least, 3.0);
+                }
             }
         }
         least
@@ -212,16 +212,4 @@ impl<'a> Nearest<'a> {
         }
         best.map(|(distance, triangle, leaf)| (Found { distance: local.length(distance), triangle }, leaf))
     }
-}
-
-/// Squared distances of the points to a box.
-#[inline(always)]
-fn box_distances(b: &obvhs::aabb::Aabb, points: &Points) -> Lanes {
-    points.each(|x, y, z| {
-        let along = |low: f32, high: f32, x: Vec4| (Vec4::splat(low) - x).max(x - high).max(Vec4::ZERO);
-        let x = along(b.min.x, b.max.x, x);
-        let y = along(b.min.y, b.max.y, y);
-        let z = along(b.min.z, b.max.z, z);
-        x * x + y * y + z * z
-    })
 }

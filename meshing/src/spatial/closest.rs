@@ -142,51 +142,58 @@ impl Candidate {
 }
 
 /// The computed distance of the origin to a triangle placed relative to the query: that which [`Bvh::closest_point`] compares,
-/// bit for bit.
-///
-/// Only candidates that can be the closest are computed. The closest point of a triangle is the foot if the foot is on the inner
-/// side of all edges, else it lies on an edge of which the foot is on the outer side. Sides are believed where the foot is
-/// farther from the edge than [`CLEAR`] of the distances at hand, so that the other candidates are farther by a
-/// part of 2^-27, far above what rounding can do to triangles that are no slivers.
+/// bit for bit. Candidates that are clearly farther than another are not computed.
 pub(crate) fn triangle_distance(t: [DVec3; 3]) -> f64 {
-    let Some(sides) = clear_sides(t) else { return closest_on_triangle(t).distance };
-    let foot = if sides.contains(&Some(false)) { None } else { foot(t) };
+    let sides = clear_sides(t);
     if sides == [Some(true); 3] {
-        return foot.unwrap_or_else(|| closest_on_triangle(t)).distance;
+        return foot(t).unwrap_or_else(|| closest_on_triangle(t)).distance;
     }
-    let edges = (0..3).filter(|&k| sides[usize::from(k)] != Some(true));
-    let least = edges.map(|k| closest_on_edge(t, k).distance).fold(f64::INFINITY, f64::min);
-    foot.map_or(least, |foot| foot.distance.min(least))
+    // The likeliest edge first.
+    let first = sides.iter().position(|&side| side == Some(false)).unwrap_or(0);
+    let mut least = closest_on_edge(t, first as u8).distance;
+    for k in [(first + 1) % 3, (first + 2) % 3] {
+        if !line_is_farther(t[k], t[(k + 1) % 3], least) {
+            least = least.min(closest_on_edge(t, k as u8).distance);
+        }
+    }
+    if sides.contains(&Some(false)) { least } else { foot(t).map_or(least, |foot| foot.distance.min(least)) }
 }
 
-/// Distance of the foot from an edge from which its side is believed, as a part of the distance of the edge's first end.
-const CLEAR: f64 = 1.0 / (1 << 13) as f64;
+/// Products of squares below this may have lost digits to underflow.
+const SMALL: f64 = f64::MIN_POSITIVE * (1u64 << 60) as f64;
 
-/// For each edge whether the foot of the perpendicular from the origin is clearly on its inner side, or clearly not; `None` for
-/// slivers and where numbers are too small to tell.
-fn clear_sides([a, b, c]: [DVec3; 3]) -> Option<[Option<bool>; 3]> {
+/// Whether the line through two points is farther from the origin than a distance by a part of 2^-21 at least, which is far above
+/// roundings.
+fn line_is_farther(a: DVec3, b: DVec3, distance: f64) -> bool {
+    const CLEAR: f64 = 1.0 + 1.0 / (1 << 20) as f64;
+    let along = b - a;
+    let limit = distance * distance * along.length_squared() * CLEAR;
+    // The cross product errs by 2^-51 of the first of these.
+    let rounding = a.length_squared() * along.length_squared() / (1u64 << 50) as f64;
+    limit > SMALL && a.cross(along).length_squared() > limit + rounding
+}
+
+/// For each edge whether the foot of the perpendicular from the origin is clearly on its inner side, or clearly not; `None` where it is
+/// close or cannot be told, as for slivers.
+///
+/// Clearly means by a part `m` of 2^-13 of the largest distance `r` to a corner. If that holds inside of all edges, they are farther than
+/// the foot by `(m r)^2 / 2 r` at least, 2^-27 r; the foot's distance errs by less than 2^-33 r, since the triangle
+/// is no sliver. If it holds outside of an edge the computed foot is not inside.
+fn clear_sides([a, b, c]: [DVec3; 3]) -> [Option<bool>; 3] {
     /// Square of the sine of the angle at the first corner.
     const SLIVER: f64 = 1.0 / (1 << 14) as f64;
-    /// Products of squares below this may have lost digits to underflow.
-    const SMALL: f64 = f64::MIN_POSITIVE * (1u64 << 60) as f64;
+    const CLEAR: f64 = 1.0 / (1 << 26) as f64;
     let (u, v) = (b - a, c - a);
     let normal = u.cross(v);
     let square = normal.length_squared();
-    if !(square > SLIVER * u.length_squared() * v.length_squared()) {
-        return None;
-    }
-    let mut sides = [None; 3];
-    for (side, (start, along)) in sides.iter_mut().zip([(a, u), (b, c - b), (c, a - c)]) {
+    let far = a.length_squared().max(b.length_squared()).max(c.length_squared());
+    let sliver = !(square > SLIVER * u.length_squared() * v.length_squared());
+    [(a, u), (b, c - b), (c, a - c)].map(|(start, along)| {
+        let unit = square * along.length_squared() * far;
         let inward = along.cross(-start).dot(normal);
-        let unit = square * along.length_squared() * start.length_squared();
-        if !(unit > SMALL) {
-            return None;
-        }
-        if inward * inward > CLEAR * CLEAR * unit {
-            *side = Some(inward > 0.0);
-        }
-    }
-    Some(sides)
+        let clear = !sliver && unit > SMALL && inward * inward > CLEAR * unit;
+        clear.then_some(inward > 0.0)
+    })
 }
 
 /// The point of a triangle, relative to the query, that is closest to the origin.
@@ -287,7 +294,7 @@ mod tests {
                 for query in queries {
                     let t = [a, b, c].map(|p| p - query);
                     count += 1;
-                    clear += u32::from(clear_sides(t).is_some_and(|sides| !sides.contains(&None)));
+                    clear += u32::from(!clear_sides(t).contains(&None));
                     assert_eq!(triangle_distance(t), closest_on_triangle(t).distance, "{t:?}");
                 }
             }
