@@ -1,6 +1,7 @@
 //! Tests of `welter_meshing::distance`.
 
 mod fields;
+mod level_sets;
 mod winding;
 
 use glam::DVec3;
