@@ -7,8 +7,8 @@
 //! # What it promises
 //! * The solution of the upwind equations, exactly but for roundings, in one pass: each node depends on neighbours with a smaller
 //!   `phi` only, and nodes are taken in the order of `phi` \[Adalsteinsson99\].
-//! * For smooth `q` and `phi`, near the surface: error O(h) constant (it begins at nodes up to one spacing inside), O(h^2)
-//!   linear in how far `q` is from its Taylor polynomial.
+//! * For smooth `q` and `phi`: the scheme is of first order in the spacing h over a length. Within a fixed number of
+//!   nodes from the surface the result differs from a smooth continuation of `q` by O(h) if constant, O(h^2) if linear.
 //! * Constant extrapolation makes no new extrema: every value is a weighted mean of values inside.
 //! * The same bits for any number of threads.
 //!

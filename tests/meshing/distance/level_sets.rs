@@ -59,15 +59,14 @@ fn order(coarse: f64, fine: f64, ratio: f64) -> f64 {
 
 #[test]
 fn the_contour_stays_to_second_order_and_distances_converge() {
-    // The error of the scheme is O(h log(1/h)), an observed order of about 0.85 to 0.95 on these grids.
-    let [coarse, fine] = [square(40), square(160)].map(errors);
+    let [coarse, fine] = [square(32), square(128)].map(errors);
     let orders = [order(coarse[0], fine[0], 4.0), order(coarse[1], fine[1], 4.0)];
     println!("plane: {coarse:.6?} {fine:.6?} orders {orders:.2?}");
-    assert!(orders[0] >= 1.8 && orders[1] >= 0.8, "{orders:?}");
-    let [coarse, fine] = [cube(20), cube(40)].map(errors);
+    assert!(orders[0] >= 1.9 && orders[1] >= 0.9, "{orders:?}");
+    let [coarse, fine] = [cube(16), cube(32)].map(errors);
     let orders = [order(coarse[0], fine[0], 2.0), order(coarse[1], fine[1], 2.0)];
     println!("space: {coarse:.6?} {fine:.6?} orders {orders:.2?}");
-    assert!(orders[0] >= 1.7 && orders[1] >= 0.75, "{orders:?}");
+    assert!(orders[0] >= 1.9 && orders[1] >= 0.9, "{orders:?}");
 }
 
 #[test]
@@ -96,7 +95,7 @@ fn planes_along_the_axes_are_exact() {
 #[test]
 fn laws_of_sign_scale_axes_and_threads() {
     let f = |p: [f64; 3]| distorted(p) + 0.2 * p[2];
-    let grid = cube(18);
+    let grid = cube(16);
     let level_set = sampled(grid, f);
     let (expected, report) = redistanced(&level_set);
     let (negated, _) = redistanced(&sampled(grid, |p| -f(p)));
@@ -155,7 +154,7 @@ fn hard_values() {
 
 #[test]
 fn sweeps_agree_with_relaxation_of_all_nodes_at_once() {
-    let grid = square(14);
+    let grid = square(16);
     let level_set = sampled(grid, |p| (p[0] - 0.3 * p[1]).sin().max(p[1] - 0.4) + 0.1);
     let (found, report) = redistanced(&level_set);
     // Jacobi iteration of the same equations, from the same values beside the contour.
@@ -163,7 +162,7 @@ fn sweeps_agree_with_relaxation_of_all_nodes_at_once() {
         let [i, j] = grid.node_at(n).map(|i| i as i32);
         [[1, 0], [-1, 0], [0, 1], [0, -1]].iter().any(|[a, b]| {
             let at = [i + a, j + b];
-            at.iter().all(|&i| (0..=14).contains(&i))
+            at.iter().all(|&i| (0..=16).contains(&i))
                 && (level_set.at(at.map(|i| i as u32)) < 0.0) != (level_set.values()[n] < 0.0)
         })
     };
@@ -177,7 +176,7 @@ fn sweeps_agree_with_relaxation_of_all_nodes_at_once() {
         for n in (0..values.len()).filter(|&n| !beside(n)) {
             let [i, j] = grid.node_at(n).map(|i| i as i32);
             let at = |i: i32, j: i32| {
-                let inside = (0..=14).contains(&i) && (0..=14).contains(&j);
+                let inside = (0..=16).contains(&i) && (0..=16).contains(&j);
                 if inside { old[grid.node_index([i as u32, j as u32])] } else { f64::INFINITY }
             };
             let a = at(i - 1, j).min(at(i + 1, j));
@@ -191,45 +190,72 @@ fn sweeps_agree_with_relaxation_of_all_nodes_at_once() {
     }
 }
 
-/// The largest error of an extrapolation within 0.3 outside of a circle or sphere.
-fn extrapolation_error<const D: usize>(grid: Grid<D>, degree: Degree) -> f64 {
+fn quantity<const D: usize>(p: [f64; D]) -> f64 {
+    (2.0 * p[0] + p[1]).sin() + p[D - 1] * p[0]
+}
+
+/// The largest error outside of a circle or sphere: of what the equations say within 0.3, and of the smooth quantity itself
+/// within three spacings.
+fn extrapolation_errors<const D: usize>(grid: Grid<D>, degree: Degree) -> [f64; 2] {
     let phi = sampled(grid, |p| length(p) - 0.5);
-    let q = |p: [f64; D]| (2.0 * p[0] + p[1]).sin() + p[D - 1] * p[0];
-    let known = sampled(grid, |p| if length(p) <= 0.5 { q(p) } else { f64::NAN });
+    let known = sampled(grid, |p| if length(p) <= 0.5 { quantity(p) } else { f64::NAN });
     let parameters = ExtrapolationParameters { degree, band: 0.3 };
     let (found, report) = extrapolate(&known, &phi, &parameters, &Monitor::none()).unwrap();
     assert_eq!(report.unreached, 0);
-    let mut worst = 0.0_f64;
+    let (mut far, mut near) = (0.0_f64, 0.0_f64);
     for (node, &value) in found.values().iter().enumerate() {
         let p = grid.node(grid.node_at(node));
-        let r = length(p);
-        if r <= 0.5 || r - 0.5 > 0.3 {
+        let outside = length(p) - 0.5;
+        if outside <= 0.0 || outside > 0.3 {
             continue;
         }
-        let foot = p.map(|x| x * 0.5 / r);
+        let foot = p.map(|x| x * 0.5 / length(p));
         let step = 1e-5;
-        let [ahead, behind] = [1.0 + step, 1.0 - step].map(|s| q(foot.map(|x| x * s)));
+        let [ahead, behind] = [1.0 + step, 1.0 - step].map(|s| quantity(foot.map(|x| x * s)));
         let slope = if degree == Degree::Linear { (ahead - behind) / step } else { 0.0 };
-        worst = worst.max((value - (q(foot) + (r - 0.5) * slope)).abs());
+        far = far.max((value - (quantity(foot) + outside * slope)).abs());
+        if outside <= 3.0 * grid.spacing() {
+            near = near.max((value - quantity(p)).abs());
+        }
     }
-    worst
+    [far, near]
 }
 
 #[test]
 fn extrapolations_converge() {
-    let grid = square(6);
-    let q = sampled(grid, |p| 1.0 / (p[0] + 1.0));
-    let refused =
-        extrapolate(&q, &sampled(grid, |p| p[0]), &ExtrapolationParameters::default(), &Monitor::none());
-    assert!(matches!(refused, Err(ExtrapolationError::Quantity { ref node, .. }) if node == &[0, 0]));
-    let refused =
-        extrapolate(&q, &sampled(square(7), |p| p[0]), &ExtrapolationParameters::default(), &Monitor::none());
-    assert_eq!(refused, Err(ExtrapolationError::Grids));
-    for (degree, least) in [(Degree::Constant, 0.8), (Degree::Linear, 0.8)] {
-        let plane = [square(40), square(160)].map(|grid| extrapolation_error(grid, degree));
-        let space = [cube(20), cube(40)].map(|grid| extrapolation_error(grid, degree));
-        let orders = [order(plane[0], plane[1], 4.0), order(space[0], space[1], 2.0)];
+    // The upwind scheme is of first order over a length; what linear adds is the second order next to the surface.
+    for (degree, least) in [(Degree::Constant, [0.85, 0.9]), (Degree::Linear, [0.85, 1.7])] {
+        let plane = [square(32), square(128)].map(|grid| extrapolation_errors(grid, degree));
+        let space = [cube(32), cube(64)].map(|grid| extrapolation_errors(grid, degree));
+        let orders =
+            [0, 1].map(|i| [order(plane[0][i], plane[1][i], 4.0), order(space[0][i], space[1][i], 2.0)]);
         println!("{degree:?}: {plane:.6?} {space:.6?} orders {orders:.2?}");
-        assert!(orders.iter().all(|&order| order >= least), "{degree:?}: {orders:?}");
+        for (orders, least) in orders.into_iter().zip(least) {
+            assert!(orders.iter().all(|&order| order >= least), "{degree:?}: {orders:?}");
+        }
     }
+}
+
+#[test]
+fn what_no_extrapolation_can_take() {
+    let grid = square(4);
+    let q = sampled(grid, |p| 1.0 / (p[0] + 1.0));
+    let everywhere = ExtrapolationParameters::default();
+    let refused = extrapolate(&q, &sampled(grid, |p| p[0]), &everywhere, &Monitor::none());
+    assert!(matches!(refused, Err(ExtrapolationError::Quantity { ref node, .. }) if node == &[0, 0]));
+    let refused = extrapolate(&q, &sampled(square(8), |p| p[0]), &everywhere, &Monitor::none());
+    assert_eq!(refused, Err(ExtrapolationError::Grids));
+    let nan = sampled(grid, |p| if p[0] > 0.9 { f64::NAN } else { p[0] });
+    let refused = extrapolate(&q, &nan, &everywhere, &Monitor::none());
+    assert!(matches!(refused, Err(ExtrapolationError::LevelSet(_))));
+    let band = ExtrapolationParameters { band: -1.0, ..everywhere };
+    assert!(matches!(extrapolate(&q, &q, &band, &Monitor::none()), Err(ExtrapolationError::Band { .. })));
+    // Nothing inside to start from, and infinite values: nodes keep what they have.
+    let ones = sampled(grid, |p| p[1]);
+    let (found, report) = extrapolate(&ones, &sampled(grid, |_| 2.0), &everywhere, &Monitor::none()).unwrap();
+    assert_eq!((found, report.extrapolated, report.unreached), (ones.clone(), 0, 25));
+    let steep = sampled(grid, |p| if p[0] > 0.4 { f64::INFINITY } else { p[0] + 0.75 });
+    let (found, report) = extrapolate(&ones, &steep, &everywhere, &Monitor::none()).unwrap();
+    assert_eq!((report.extrapolated, report.unreached), (10, 10));
+    assert_eq!(found, ones); // It changes along the contours only.
 }
