@@ -158,30 +158,39 @@ impl<'a> Nearest<'a> {
         let mut limits = self.limits(least, 3.0);
         self.kept.clear();
         self.stack.clear();
-        self.stack.extend(caps.first().map(|_| 0));
-        while let Some(index) = self.stack.pop() {
-            let cap = &caps[index as usize];
-            if !cap.squared_distances(points).any_at_most(limits) {
-                continue;
-            }
-            let leaf = match cap.below {
-                Below::Children(first) => {
-                    self.stack.extend([first, first + 1]);
-                    continue;
-                }
-                Below::Leaf(leaf) => leaf,
-            };
-            let flat = &self.prepared.flat[leaf as usize];
-            let squares = flat.squared_distances(points);
-            if squares.any_at_most(limits) {
-                self.kept.push((leaf, squares.to_array()));
-                if !flat.sliver {
-                    least = least.min(squares);
-                    limits = self.limits(least, 3.0);
+        match caps.first().map(|root| root.below) {
+            Some(Below::Children(first)) => self.stack.push(first),
+            Some(Below::Leaf(leaf)) => self.look_at(leaf, points, &mut least, &mut limits),
+            None => {}
+        }
+        while let Some(first) = self.stack.pop() {
+            let pair = &caps[first as usize..][..2];
+            // Both at once: neither waits for the other.
+            let [a, b] = [pair[0].squared_distances(points), pair[1].squared_distances(points)];
+            let near = [a.any_at_most(limits), b.any_at_most(limits)];
+            for (cap, near) in pair.iter().zip(near) {
+                match cap.below {
+                    _ if !near => {}
+                    Below::Children(first) => self.stack.push(first),
+                    Below::Leaf(leaf) => self.look_at(leaf, points, &mut least, &mut limits),
                 }
             }
         }
         least
+    }
+
+    /// Keeps a triangle if it is within the limit of some point, and lowers the limits.
+    #[inline(always)]
+    fn look_at(&mut self, leaf: u32, points: &Points, least: &mut Lanes, limits: &mut Lanes) {
+        let flat = &self.prepared.flat[leaf as usize];
+        let squares = flat.squared_distances(points);
+        if squares.any_at_most(*limits) {
+            self.kept.push((leaf, squares.to_array()));
+            if !flat.sliver {
+                *least = least.min(squares);
+                *limits = self.limits(*least, 3.0);
+            }
+        }
     }
 
     /// What squared distances a triangle may have that is not farther than the nearest so far.
@@ -198,10 +207,8 @@ impl<'a> Nearest<'a> {
         let bvh = self.prepared.bvh;
         let local = bvh.tree().frame.about(at);
         let mut best: Option<(f64, TriId, u32)> = None;
-        for &(leaf, squares) in &self.kept {
-            if squares[lane] > limit {
-                continue;
-            }
+        for (leaf, _) in self.kept.iter().filter(|(_, squares)| squares[lane] <= limit) {
+            let leaf = *leaf;
             let triangle = self.prepared.id(leaf);
             let distance = triangle_distance(bvh.mesh().corners(triangle).map(|p| local.place(p)));
             if best

@@ -56,7 +56,7 @@ impl RedistanceParameters {
                 range: "at least 1",
             });
         }
-        if !(self.tolerance_rel >= 0.0) {
+        if self.tolerance_rel.is_nan() || self.tolerance_rel < 0.0 {
             let (parameter, value) = ("tolerance_rel", self.tolerance_rel);
             return Err(RedistanceError::Parameter { parameter, value, range: "at least 0" });
         }
@@ -197,8 +197,7 @@ impl<const D: usize> Sweeps<D> {
             // The row's index along the other axes, and its neighbours' offsets.
             let (mut rest, mut stride, mut first) = (row, length, 0);
             let mut sides = [[None; 2]; 3];
-            for axis in 1..D {
-                let count = self.nodes[axis];
+            for (axis, &count) in self.nodes.iter().enumerate().skip(1) {
                 let along = rest % count;
                 rest /= count;
                 let i = if order >> axis & 1 == 1 { count - 1 - along } else { along };
@@ -223,9 +222,8 @@ impl<const D: usize> Sweeps<D> {
         }
         let at = |place: Option<usize>| place.map_or(f64::INFINITY, |place| self.distances[place]);
         let mut nearer = [f64::INFINITY; 3];
-        for axis in 0..D {
-            let [before, after] = sides[axis];
-            nearer[axis] = at(before.map(|s| node - s)).min(at(after.map(|s| node + s)));
+        for (nearer, [before, after]) in nearer.iter_mut().zip(&sides[..D]) {
+            *nearer = at(before.map(|s| node - s)).min(at(after.map(|s| node + s)));
         }
         let old = self.distances[node];
         if nearer[0].min(nearer[1]).min(nearer[2]) >= old {

@@ -80,7 +80,7 @@ impl<'a> Search<'a> {
     ) {
         let halves = [0, 1, 2].map(|axis: usize| (high[axis] - low[axis]).div_ceil(2));
         let there_and_back = |i: usize, count: usize, back: usize| {
-            if back % 2 == 0 { i } else { count - 1 - i }
+            if back.is_multiple_of(2) { i } else { count - 1 - i }
         };
         for c in 0..halves[2] {
             for b in 0..halves[1] {

@@ -187,11 +187,11 @@ fn clear_sides([a, b, c]: [DVec3; 3]) -> [Option<bool>; 3] {
     let normal = u.cross(v);
     let square = normal.length_squared();
     let far = a.length_squared().max(b.length_squared()).max(c.length_squared());
-    let sliver = !(square > SLIVER * u.length_squared() * v.length_squared());
+    let stout = square > SLIVER * u.length_squared() * v.length_squared();
     [(a, u), (b, c - b), (c, a - c)].map(|(start, along)| {
         let unit = square * along.length_squared() * far;
         let inward = along.cross(-start).dot(normal);
-        let clear = !sliver && unit > SMALL && inward * inward > CLEAR * unit;
+        let clear = stout && unit > SMALL && inward * inward > CLEAR * unit;
         clear.then_some(inward > 0.0)
     })
 }
