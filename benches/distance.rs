@@ -182,7 +182,7 @@ fn main() {
     let largest = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(256);
     println!("{} threads; wall time (processor time); band of {BAND} cells", rayon::current_num_threads());
     measure("bumpy", &bumpy(100_000.0), 128.min(largest));
-    measure("torus", &ring(0.0142), 128.min(largest));
+    measure("torus", &ring(0.0178), 128.min(largest));
     let mesh = ball(100_000.0);
     one_by_one(&mesh, 128.min(largest));
     let ladder = |name: &str, rows: Vec<(f64, [f64; 2])>| {

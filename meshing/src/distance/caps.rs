@@ -146,7 +146,7 @@ fn circle_around([(p, r), (q, s)]: [(DVec3, f64); 2]) -> (DVec3, f64) {
 /// pass over the mesh. Cylinders around cylinders are some times too thick, which matters near the leaves most.
 const MEASURED: u32 = 256;
 
-/// The caps of all nodes; `corners` gives the triangle of a leaf in the frame of the scene.
+/// The caps of all nodes; `corners` gives a triangle, by its place in the order of leaves, in the frame of the scene.
 pub(super) fn caps(tree: &Bvh2, corners: impl Fn(u32) -> [DVec3; 3] + Sync) -> Vec<Cap> {
     let nodes = &tree.nodes;
     let mut cylinders = vec![Cylinder::default(); nodes.len()];
@@ -154,8 +154,7 @@ pub(super) fn caps(tree: &Bvh2, corners: impl Fn(u32) -> [DVec3; 3] + Sync) -> V
     // Children come after their parents.
     for (index, node) in nodes.iter().enumerate().rev() {
         if node.is_leaf() {
-            let triangle = tree.primitive_indices[node.first_index as usize];
-            cylinders[index] = Cylinder::of_triangle(corners(triangle));
+            cylinders[index] = Cylinder::of_triangle(corners(node.first_index));
         } else {
             let [a, b] = [node.first_index as usize, node.first_index as usize + 1];
             cylinders[index] = Cylinder::around([&cylinders[a], &cylinders[b]]);
@@ -167,8 +166,7 @@ pub(super) fn caps(tree: &Bvh2, corners: impl Fn(u32) -> [DVec3; 3] + Sync) -> V
     let mut leaves = vec![[DVec3::ZERO; 3]; tree.primitive_indices.len()];
     for (index, node) in nodes.iter().enumerate() {
         if node.is_leaf() {
-            let triangle = tree.primitive_indices[node.first_index as usize];
-            leaves[starts[index] as usize] = corners(triangle);
+            leaves[starts[index] as usize] = corners(node.first_index);
         } else {
             let [a, b] = [node.first_index as usize, node.first_index as usize + 1];
             starts[a] = starts[index];

@@ -9,7 +9,7 @@
 //!   `phi` only, and nodes are taken in the order of `phi` \[Adalsteinsson99\].
 //! * For smooth `q` and `phi`: the scheme is of first order in the spacing h over a length. Within a fixed number of
 //!   nodes from the surface the result differs from a smooth continuation of `q` by O(h) if constant, O(h^2) if linear.
-//! * Constant extrapolation makes no new extrema: every value is a weighted mean of values inside.
+//! * Constant extrapolation makes no new extrema: every value lies between values inside.
 //! * The same bits for any number of threads.
 //!
 //! # What it does not promise
@@ -231,15 +231,20 @@ impl<'a, const D: usize> Outward<'a, D> {
         if !(largest > 0.0 && largest.is_finite()) {
             return None;
         }
+        // Differences to one of the values: equal values have exactly their mean.
+        let one = nearer.iter().flatten().map(|&k| values[k]).next()?;
         let (mut sum, mut squares, mut mean) = (0.0, 0.0, 0.0);
+        let (mut low, mut high) = (one, one);
         for (weight, k) in weights.into_iter().zip(nearer) {
             let Some(k) = k else { continue };
             let weight = weight / largest;
             sum += weight;
             squares += weight * weight;
-            mean += weight * values[k];
+            mean += weight * (values[k] - one);
+            (low, high) = (low.min(values[k]), high.max(values[k]));
         }
-        Some((mean + self.grid.spacing() * slope * squares.sqrt()) / sum)
+        let mean = (one + mean / sum).clamp(low, high);
+        Some(mean + self.grid.spacing() * slope * squares.sqrt() / sum)
     }
 }
 

@@ -20,6 +20,7 @@
 
 use glam::{DVec3, Vec3A, Vec4};
 use obvhs::bvh2::node::Bvh2Node;
+use rayon::prelude::*;
 
 use super::caps::{Below, Cap, caps};
 use super::flat::{FlatTriangle, LANES, Lanes, Points, square_root, tolerance};
@@ -39,21 +40,23 @@ pub(super) struct Prepared<'a> {
     pub(super) bvh: &'a Bvh<'a>,
     /// In the order of leaves.
     flat: Vec<FlatTriangle>,
+    /// The corners in the same order, so that one look finds what is next to it.
+    corners: Vec<[DVec3; 3]>,
     /// In the order of nodes.
     caps: Vec<Cap>,
 }
 
 impl<'a> Prepared<'a> {
     pub(super) fn new(bvh: &'a Bvh<'a>) -> Self {
-        use rayon::prelude::*;
         let tree = bvh.tree();
-        let corners = |t: u32| bvh.mesh().corners(TriId(t)).map(|p| tree.frame.place(p));
-        let flat = || {
-            let leaves = tree.bvh.primitive_indices.par_iter().with_min_len(1024);
-            leaves.map(|&t| FlatTriangle::of(corners(t))).collect()
-        };
-        let (flat, caps) = rayon::join(flat, || caps(&tree.bvh, corners));
-        Self { bvh, flat, caps }
+        let leaves = tree.bvh.primitive_indices.par_iter().with_min_len(1024);
+        let corners: Vec<_> = leaves.map(|&t| bvh.mesh().corners(TriId(t))).collect();
+        let placed = |leaf: u32| corners[leaf as usize].map(|p| tree.frame.place(p));
+        let all = 0..corners.len() as u32;
+        let flat =
+            || all.into_par_iter().with_min_len(1024).map(|leaf| FlatTriangle::of(placed(leaf))).collect();
+        let (flat, caps) = rayon::join(flat, || caps(&tree.bvh, placed));
+        Self { bvh, flat, corners, caps }
     }
 
     fn id(&self, leaf: u32) -> TriId {
@@ -210,7 +213,7 @@ impl<'a> Nearest<'a> {
         for (leaf, _) in self.kept.iter().filter(|(_, squares)| squares[lane] <= limit) {
             let leaf = *leaf;
             let triangle = self.prepared.id(leaf);
-            let distance = triangle_distance(bvh.mesh().corners(triangle).map(|p| local.place(p)));
+            let distance = triangle_distance(self.prepared.corners[leaf as usize].map(|p| local.place(p)));
             if best
                 .is_none_or(|(least, lowest, _)| distance < least || (distance == least && triangle < lowest))
             {
