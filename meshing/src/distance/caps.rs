@@ -183,3 +183,56 @@ pub(super) fn caps(tree: &Bvh2, corners: impl Fn(u32) -> [DVec3; 3] + Sync) -> V
     };
     cylinders.par_iter().enumerate().with_min_len(1024).map(measured).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::distance::flat::LANES;
+    use crate::shapes::{Torus, torus};
+    use crate::spatial::Bvh;
+    use crate::spatial::closest::triangle_distance;
+    use crate::surface::TriId;
+
+    #[test]
+    fn caps_are_no_farther_than_any_triangle_below() {
+        const UNIT: f64 = 1.0 / (1 << 24) as f64;
+        let mesh = torus(&Torus { edge_length: 0.25, ..Torus::default() }).expect("valid parameters");
+        let bvh = Bvh::new(&mesh);
+        let tree = &bvh.tree().bvh;
+        let placed = |leaf: u32| {
+            let triangle = TriId(tree.primitive_indices[leaf as usize]);
+            mesh.corners(triangle).map(|p| bvh.tree().frame.place(p))
+        };
+        let caps = caps(tree, placed);
+        let points: [DVec3; LANES] = std::array::from_fn(|i| {
+            let t = i as f64;
+            DVec3::new((1.3 * t).sin(), (2.1 * t).cos(), 0.2 * t - 0.7)
+        });
+        let lanes = |axis: usize| Lanes::of(points.map(|p| p[axis] as f32));
+        let lanes = Points { x: lanes(0), y: lanes(1), z: lanes(2) };
+        let mut tight = 0;
+        for index in 0..tree.nodes.len() {
+            let bounds = caps[index].squared_distances(&lanes).to_array();
+            let mut below = vec![index];
+            let mut least = [f64::INFINITY; LANES];
+            while let Some(node) = below.pop() {
+                match caps[node].below {
+                    Below::Children(first) => below.extend([first as usize, first as usize + 1]),
+                    Below::Leaf(leaf) => {
+                        for (least, p) in least.iter_mut().zip(points) {
+                            *least = least.min(triangle_distance(placed(leaf).map(|q| q - p)));
+                        }
+                    }
+                }
+            }
+            for (bound, least) in bounds.into_iter().zip(least) {
+                assert!(
+                    f64::from(bound.max(0.0)).sqrt() <= least + 42.0 * UNIT,
+                    "node {index}: {bound} {least}"
+                );
+                tight += usize::from(f64::from(bound.max(0.0)).sqrt() > 0.95 * least);
+            }
+        }
+        assert!(tight > 6 * tree.nodes.len(), "{tight} of {} are tight", LANES * tree.nodes.len());
+    }
+}

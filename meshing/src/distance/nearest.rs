@@ -15,7 +15,7 @@
 //! double precision T is not farther than S. No distance in double precision is less than the true one by more than
 //! roundings, since its point is a convex combination of the corners; and that of S is not more than 2^-34 too large. So the true distance of T
 //! is at most that of S and 2^-33, with t at least 2^-17. True distances differ from those in single precision by at most
-//! 107/128 t, so T has at most s + 107/64 t and a little, less than s + 2 t. Cylinders, whose values exceed true
+//! 122/128 t, so T has at most s + 122/64 t and a little, less than s + 2 t. Cylinders, whose values exceed true
 //! distances by less than t/3, are compared with s + 3 t.
 
 use glam::{DVec3, Vec3A, Vec4};
