@@ -54,6 +54,39 @@ fn slivers_and_degenerate_triangles() {
 }
 
 #[test]
+fn needles_that_point_at_nodes() {
+    // A node beyond a tip is within a rounding of all three half-planes of a needle.
+    let bytes = stream(11, 12_000);
+    let entropy = &mut Entropy::new(&bytes);
+    let mut point = || DVec3::from_array([(); 3].map(|()| f64::from(entropy.between(-64, 64)) / 64.0));
+    let grid = Grid3::new([-1.0; 3], 0.25, [8; 3]).unwrap();
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for k in 0..150_u32 {
+        // The line goes on to the middle of the grid, the apex is anywhere along it.
+        let (a, size) = (point(), 10_f64.powi(-((k % 15) as i32)));
+        let (b, c) = (0.4 * a, a * (1.0 - 0.6 * f64::from(k % 11) / 10.0) + size * 0.1 * point());
+        let corners = if k % 2 == 0 { [a, b, c] } else { [c, a, b] };
+        triangles.push([0, 1, 2].map(|v| 3 * k + v));
+        positions.extend(corners);
+        compare(
+            &TriMesh::new(TriangleSoup {
+                positions: corners.to_vec(),
+                triangles: vec![[0, 1, 2]],
+                ..TriangleSoup::default()
+            })
+            .unwrap(),
+            &Grid3::new([-0.5; 3], 0.5, [2; 3]).unwrap(),
+            0.3,
+        );
+    }
+    compare(
+        &TriMesh::new(TriangleSoup { positions, triangles, ..TriangleSoup::default() }).unwrap(),
+        &grid,
+        0.2,
+    );
+}
+
+#[test]
 fn grids_much_larger_much_finer_and_much_farther_than_the_mesh() {
     let mesh = shapes::sphere(&Sphere { edge_length: 0.4, ..Sphere::default() }).unwrap();
     for (origin, spacing) in [
