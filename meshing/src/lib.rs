@@ -22,6 +22,7 @@ pub mod io;
 pub mod isosurface;
 mod monitor;
 pub mod quadrature;
+pub mod remesh;
 pub mod shapes;
 pub mod spatial;
 pub mod surface;

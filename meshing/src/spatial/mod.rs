@@ -28,4 +28,5 @@ pub use bvh::{Bvh, RefitError};
 pub use closest::ClosestPoint;
 pub use self_intersection::{Sharing, self_intersections};
 pub use tree::BoxTree;
+pub(crate) use triangle_pair::meet_in_more;
 pub use winding::{Winding, WindingNumbers, winding_number};

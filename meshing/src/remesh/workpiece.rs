@@ -1,0 +1,219 @@
+//! [`Workpiece`]: a surface under change, and the one way in which it changes.
+//!
+//! # The one way
+//! Splits, flips, collapses and moves of a vertex are all the same to the embedding: the triangles of a disc are replaced by those that join the
+//! boundary of the disc to one point, the apex (the new vertex, an apex of the flipped edge, the vertex that remains, the vertex that moves).
+//! [`Workpiece::accepts`] decides whether such a change may be made.
+//!
+//! # What it promises
+//! An accepted change keeps the surface embedded, by the exact predicate that defines it: no new triangle meets another new one, or one that stays, in more
+//! than the vertex or edge that they share. The triangles that stay do not meet each other as before.
+//!
+//! It also keeps what is inside of what: the disc, the new triangles and the tetrahedra between the apex and the triangles of the disc bound the region
+//! swept by the change, and no vertex of a triangle that stays lies in one of these tetrahedra. So no other part of the surface is swept over: it
+//! would have a vertex there, or cross the old or the new triangles.
+//!
+//! # What else it asks
+//! The shape of new triangles, which is a criterion and no promise: their normals are at most [`STEEPEST`] off those of the field at their corners, or at
+//! least no worse than those of the disc; so a fold can be undone, but none is made.
+
+use super::buckets::Buckets;
+use super::connectivity::{Connectivity, HalfEdge};
+use super::shape;
+use crate::DVec3;
+use crate::field::ScalarField;
+use crate::spatial::{Box3, meet_in_more};
+use crate::surface::{TriId, VertexId};
+use welter_predicates::intersection::tetrahedron_contains;
+
+/// Cosine of the largest angle between the normal of a new triangle and the mean normal at its corners: 60 degrees. A triangle of edge length L
+/// inscribed in a sphere of radius r is off by up to asin(L / r) or so; surfaces that a grid resolves have r > L.
+const STEEPEST: f64 = 0.5;
+
+/// Half the distance over which fields are differenced, in edge lengths: far above the rounding of coordinates, far below the size of features.
+pub(super) const STEP_REL: f64 = 1.0 / 1024.0;
+
+/// What became of proposed changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Refusals {
+    pub(super) shape: u64,
+    pub(super) intersection: u64,
+}
+
+pub(super) struct Workpiece<'a, F> {
+    pub(super) field: &'a F,
+    /// Target edge length.
+    pub(super) length: f64,
+    /// 1 where the field increases to the side from which triangles are counterclockwise, else -1.
+    pub(super) side: f64,
+    pub(super) mesh: Connectivity,
+    pub(super) positions: Vec<DVec3>,
+    /// Unit normals; zero where nothing tells one.
+    pub(super) normals: Vec<DVec3>,
+    /// Derivative of the field along the normal; zero where it is not known.
+    pub(super) slopes: Vec<f64>,
+    pub(super) buckets: Buckets,
+    pub(super) refused: Refusals,
+}
+
+/// A change to be judged: the apex is at its new position already, the triangles of the disc are listed with their old corners.
+pub(super) struct Change<'c> {
+    pub(super) apex: VertexId,
+    pub(super) disc: &'c [TriId],
+    pub(super) before: &'c [[DVec3; 3]],
+    pub(super) after: &'c [[VertexId; 3]],
+}
+
+impl<'a, F: ScalarField> Workpiece<'a, F> {
+    pub(super) fn new(field: &'a F, length: f64, mesh: Connectivity, positions: Vec<DVec3>) -> Self {
+        let vertices = positions.len();
+        let mut piece = Self {
+            field,
+            length,
+            side: 1.0,
+            buckets: Buckets::new(length, 0),
+            mesh,
+            positions,
+            normals: vec![DVec3::ZERO; vertices],
+            slopes: vec![0.0; vertices],
+            refused: Refusals::default(),
+        };
+        piece.side = piece.side_of_field();
+        for v in 0..vertices as u32 {
+            piece.refresh(VertexId(v));
+        }
+        piece.rebuild();
+        piece
+    }
+
+    /// Buckets for the triangles as they are.
+    pub(super) fn rebuild(&mut self) {
+        let extent = |t: TriId| {
+            let b = Box3::of(self.corners(t));
+            (b.max - b.min).max_element()
+        };
+        let longest = self.mesh.triangles().map(extent).fold(2.0 * self.length, f64::max);
+        self.buckets = Buckets::new(longest, self.mesh.triangle_slots());
+        for t in (0..self.mesh.triangle_slots() as u32).map(TriId) {
+            if self.mesh.has_triangle(t) {
+                self.place(t);
+            }
+        }
+    }
+
+    #[inline]
+    pub(super) fn at(&self, v: VertexId) -> DVec3 {
+        self.positions[v.index()]
+    }
+
+    #[inline]
+    pub(super) fn corners(&self, t: TriId) -> [DVec3; 3] {
+        self.mesh.corners(t).map(|v| self.at(v))
+    }
+
+    /// Square of the length of an edge.
+    #[inline]
+    pub(super) fn squared(&self, h: HalfEdge) -> f64 {
+        self.at(self.mesh.tail(h)).distance_squared(self.at(self.mesh.head(h)))
+    }
+
+    pub(super) fn place(&mut self, t: TriId) {
+        let around = Box3::of(self.corners(t));
+        self.buckets.place(t, &around);
+    }
+
+    /// Whether the field increases outward of the triangles, by a vote of the areas.
+    fn side_of_field(&self) -> f64 {
+        let step = self.length * STEP_REL;
+        let mut vote = 0.0;
+        for v in self.mesh.vertices() {
+            let gradient = self.field.gradient(self.at(v), step);
+            let agreement = gradient.normalize_or_zero().dot(self.area_normal(v) / self.length);
+            if agreement.is_finite() {
+                vote += agreement;
+            }
+        }
+        if vote < 0.0 { -1.0 } else { 1.0 }
+    }
+
+    /// Sum of the area vectors of a vertex's triangles: thin triangles have little say.
+    fn area_normal(&self, v: VertexId) -> DVec3 {
+        self.mesh.around(v).map(|h| shape::area_vector(self.corners(h.triangle()))).sum()
+    }
+
+    /// Computes the normal of a vertex anew: the gradient where that is usable, else the normal of the mesh.
+    pub(super) fn refresh(&mut self, v: VertexId) {
+        if !self.mesh.has_vertex(v) {
+            return;
+        }
+        let gradient = self.side * self.field.gradient(self.at(v), self.length * STEP_REL);
+        let slope = gradient.length();
+        let of_mesh = self.area_normal(v).normalize_or_zero();
+        let usable = slope.is_finite() && slope > 0.0 && (gradient / slope).dot(of_mesh) > STEEPEST;
+        (self.normals[v.index()], self.slopes[v.index()]) =
+            if usable { (gradient / slope, slope) } else { (of_mesh, 0.0) };
+    }
+
+    /// Cosine of the angle between a triangle's normal and the mean normal at its corners; -1 where one of them has no direction.
+    pub(super) fn uprightness(&self, corners: [VertexId; 3]) -> f64 {
+        let area = shape::area_vector(corners.map(|v| self.at(v)));
+        let mean: DVec3 = corners.iter().map(|v| self.normals[v.index()]).sum();
+        let cosine = area.normalize_or_zero().dot(mean.normalize_or_zero());
+        if cosine == 0.0 { -1.0 } else { cosine }
+    }
+
+    /// Whether a change keeps the surface embedded and upright: see the head.
+    pub(super) fn accepts(&mut self, change: &Change<'_>, upright_before: f64) -> bool {
+        let limit = upright_before.min(STEEPEST);
+        let reach = self.buckets.reach();
+        let fits = |t: &[VertexId; 3]| {
+            let b = Box3::of(t.map(|v| self.at(v)));
+            (b.max - b.min).max_element() <= reach && self.uprightness(*t) >= limit
+        };
+        if !change.after.iter().all(fits) {
+            self.refused.shape += 1;
+            return false;
+        }
+        let safe = self.keeps_embedded(change);
+        self.refused.intersection += u64::from(!safe);
+        safe
+    }
+
+    /// The exact part: see the head.
+    fn keeps_embedded(&self, change: &Change<'_>) -> bool {
+        let &Change { apex, disc, before, after } = change;
+        let positions = &self.positions;
+        for (i, &s) in after.iter().enumerate() {
+            if after[..i].iter().any(|&t| meet_in_more(positions, s, t)) {
+                return false;
+            }
+        }
+        let tip = self.at(apex);
+        let of_new = |t: &[VertexId; 3]| Box3::of(t.map(|v| self.at(v)));
+        let all = before.iter().flatten().copied().chain([tip]);
+        let around = after.iter().map(of_new).fold(Box3::of(all), |all, b| all.union(&b));
+        self.buckets.for_each_near(&around, |t| {
+            if disc.contains(&t) {
+                return true;
+            }
+            let corners = self.mesh.corners(t);
+            let own = Box3::of(corners.map(|v| self.at(v)));
+            if !own.meets(&around) {
+                return true;
+            }
+            let clear = |new: &[VertexId; 3]| {
+                !own.meets(&of_new(new)) || !meet_in_more(positions, corners, *new)
+            };
+            after.iter().all(clear) && corners.iter().all(|&v| !self.swept(change, v))
+        })
+    }
+
+    /// Whether a vertex lies in the region that a change sweeps over. Vertices of the new triangles are its corners.
+    fn swept(&self, change: &Change<'_>, v: VertexId) -> bool {
+        let (p, tip) = (self.at(v), self.at(change.apex));
+        let within = |&[a, b, c]: &[DVec3; 3]| {
+            Box3::of([a, b, c, tip]).contains(p) && tetrahedron_contains([a, b, c, tip], p)
+        };
+        change.before.iter().any(within) && !change.after.iter().flatten().any(|&w| w == v)
+    }
+}
