@@ -1,8 +1,8 @@
 //! [`Buckets`]: which triangles may be near a box, while triangles change.
 //!
 //! # What it promises
-//! [`Buckets::for_each_near`] visits every triangle whose box meets the box asked for, as long as every triangle's box has sides of at most
-//! [`Buckets::reach`]; it visits others too, and some twice.
+//! [`Buckets::all_near`] visits every triangle whose box meets the box asked for, some perhaps twice, as long as every triangle's box has sides of at most
+//! [`Buckets::reach`].
 //!
 //! # Method
 //! Space is cut into cubes with sides of 5/4 of that length. A triangle is in the list of the cube that holds the least corner of its box, so its box ends in
@@ -25,30 +25,31 @@ const END: u32 = u32::MAX;
 /// Largest magnitude of a coordinate, in units of [`Buckets::reach`].
 pub(super) const MOST_REACHES: f64 = (1_u64 << 40) as f64;
 
+/// A triangle in its list; a cache line.
+#[derive(Clone, Debug)]
+struct Entry {
+    around: Box3,
+    next: u32,
+    /// The triangle before in its list; without meaning for the first.
+    previous: u32,
+    /// The list; `END` if the triangle is in none.
+    list: u32,
+}
+
 #[derive(Debug)]
 pub(super) struct Buckets {
     reach: f64,
     side: f64,
     /// First triangle of each list; as many as a power of two.
     first: Vec<u32>,
-    next: Vec<u32>,
-    /// The triangle before in its list; for the first of list `i`, `!i`.
-    previous: Vec<u32>,
-    /// The list of each triangle; `END` if it is in none.
-    list: Vec<u32>,
+    entries: Vec<Entry>,
 }
 
 impl Buckets {
     /// Empty lists for about so many triangles whose boxes have sides of at most `reach`, which is positive.
     pub(super) fn new(reach: f64, triangles: usize) -> Self {
-        Self {
-            reach,
-            side: 1.25 * reach,
-            first: vec![END; (2 * triangles).next_power_of_two().min(1 << 30)],
-            next: Vec::new(),
-            previous: Vec::new(),
-            list: Vec::new(),
-        }
+        let lists = triangles.next_power_of_two().min(1 << 30);
+        Self { reach, side: 1.25 * reach, first: vec![END; lists], entries: Vec::with_capacity(triangles) }
     }
 
     /// Longest side of a triangle's box.
@@ -57,48 +58,45 @@ impl Buckets {
     }
 
     /// Puts a triangle where its box is, from wherever it was.
-    pub(super) fn place(&mut self, triangle: TriId, around: &Box3) {
+    pub(super) fn place(&mut self, triangle: TriId, around: Box3) {
         let t = triangle.index();
-        if t >= self.list.len() {
-            for links in [&mut self.next, &mut self.previous, &mut self.list] {
-                links.resize(t + 1, END);
-            }
+        if t >= self.entries.len() {
+            let nowhere = Entry { around: Box3::EMPTY, next: END, previous: END, list: END };
+            self.entries.resize(t + 1, nowhere);
         }
+        self.entries[t].around = around;
         let list = self.list_of(self.cube(around.min));
-        if self.list[t] == list {
+        if self.entries[t].list == list {
             return;
         }
         self.remove(triangle);
-        let second = self.first[list as usize];
+        let second = std::mem::replace(&mut self.first[list as usize], triangle.0);
         if second != END {
-            self.previous[second as usize] = triangle.0;
+            self.entries[second as usize].previous = triangle.0;
         }
-        self.next[t] = second;
-        self.first[list as usize] = triangle.0;
-        self.list[t] = list;
+        self.entries[t].next = second;
+        self.entries[t].list = list;
     }
 
     /// Takes a triangle out, if it is in a list.
     pub(super) fn remove(&mut self, triangle: TriId) {
-        let t = triangle.index();
-        let list = self.list[t];
+        let Entry { next, previous, list, .. } = self.entries[triangle.index()];
         if list == END {
             return;
         }
-        let next = self.next[t];
         if self.first[list as usize] == triangle.0 {
             self.first[list as usize] = next;
         } else {
-            self.next[self.previous[t] as usize] = next;
+            self.entries[previous as usize].next = next;
         }
         if next != END {
-            self.previous[next as usize] = self.previous[t];
+            self.entries[next as usize].previous = previous;
         }
-        self.list[t] = END;
+        self.entries[triangle.index()].list = END;
     }
 
-    /// Visits every triangle whose box meets `around`, and others, until one visit returns false; whether none did.
-    pub(super) fn for_each_near(&self, around: &Box3, mut visit: impl FnMut(TriId) -> bool) -> bool {
+    /// Visits every triangle whose box meets `around`, some perhaps twice, with its box, until one visit returns false; whether none did.
+    pub(super) fn all_near(&self, around: &Box3, mut visit: impl FnMut(TriId, &Box3) -> bool) -> bool {
         let low = self.cube(around.min).map(|i| i - 1);
         let high = self.cube(around.max);
         for k in low[2]..=high[2] {
@@ -106,10 +104,11 @@ impl Buckets {
                 for i in low[0]..=high[0] {
                     let mut t = self.first[self.list_of([i, j, k]) as usize];
                     while t != END {
-                        if !visit(TriId(t)) {
+                        let entry = &self.entries[t as usize];
+                        if entry.around.meets(around) && !visit(TriId(t), &entry.around) {
                             return false;
                         }
-                        t = self.next[t as usize];
+                        t = entry.next;
                     }
                 }
             }

@@ -7,7 +7,7 @@ use super::shape::sharpest;
 use super::workpiece::{Change, Workpiece};
 use crate::DVec3;
 use crate::field::ScalarField;
-use crate::surface::{TriId, VertexId};
+use crate::surface::{MAX_TRIANGLES, TriId, VertexId};
 
 impl<F: ScalarField> Workpiece<'_, F> {
     /// The point where a vertex in the middle of an edge goes, with the normal and slope there; the middle itself where the surface is not found.
@@ -21,6 +21,9 @@ impl<F: ScalarField> Workpiece<'_, F> {
 
     /// Puts a vertex on the middle of an edge, and onto the surface if that is accepted.
     pub(super) fn try_split(&mut self, h: HalfEdge) -> bool {
+        if self.mesh.triangle_slots() + 2 > MAX_TRIANGLES {
+            return false; // Ids are used up.
+        }
         let (on_surface, normal, slope) = self.middle(h);
         let o = self.mesh.opposite(h);
         let [a, b] = [self.mesh.tail(h), self.mesh.head(h)];
@@ -62,7 +65,6 @@ impl<F: ScalarField> Workpiece<'_, F> {
         let [a, b] = [self.mesh.tail(h), self.mesh.head(h)];
         let gone = [h.triangle(), self.mesh.opposite(h).triangle()];
         let mut disc = self.star(a);
-        let of_a = disc.len();
         disc.extend(self.mesh.around(b).map(HalfEdge::triangle).filter(|t| !gone.contains(t)));
         let before: Vec<[DVec3; 3]> = disc.iter().map(|&t| self.corners(t)).collect();
         let upright = self.least_upright(&disc);
@@ -82,7 +84,6 @@ impl<F: ScalarField> Workpiece<'_, F> {
             return false;
         }
         self.mesh.collapse(h);
-        debug_assert!(of_a > 2, "a closed surface");
         gone.iter().for_each(|&t| self.buckets.remove(t));
         disc.iter().filter(|t| !gone.contains(t)).for_each(|&t| self.place(t));
         self.refresh(a);

@@ -33,6 +33,9 @@ const STEEPEST: f64 = 0.5;
 /// Half the distance over which fields are differenced, in edge lengths: far above the rounding of coordinates, far below the size of features.
 pub(super) const STEP_REL: f64 = 1.0 / 1024.0;
 
+/// Sides of boxes that triangles may have in any case, in edge lengths: a little above the longest edges that remain.
+const REACH_REL: f64 = 1.5;
+
 /// What became of proposed changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Refusals {
@@ -92,7 +95,7 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
             let b = Box3::of(self.corners(t));
             (b.max - b.min).max_element()
         };
-        let longest = self.mesh.triangles().map(extent).fold(2.0 * self.length, f64::max);
+        let longest = self.mesh.triangles().map(extent).fold(REACH_REL * self.length, f64::max);
         self.buckets = Buckets::new(longest, self.mesh.triangle_slots());
         for t in (0..self.mesh.triangle_slots() as u32).map(TriId) {
             if self.mesh.has_triangle(t) {
@@ -119,7 +122,7 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
 
     pub(super) fn place(&mut self, t: TriId) {
         let around = Box3::of(self.corners(t));
-        self.buckets.place(t, &around);
+        self.buckets.place(t, around);
     }
 
     /// Whether the field increases outward of the triangles, by a vote of the areas.
@@ -189,31 +192,28 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
             }
         }
         let tip = self.at(apex);
-        let of_new = |t: &[VertexId; 3]| Box3::of(t.map(|v| self.at(v)));
-        let all = before.iter().flatten().copied().chain([tip]);
-        let around = after.iter().map(of_new).fold(Box3::of(all), |all, b| all.union(&b));
-        self.buckets.for_each_near(&around, |t| {
+        let added: Vec<Box3> = after.iter().map(|t| Box3::of(t.map(|v| self.at(v)))).collect();
+        let swept: Vec<Box3> = before.iter().map(|&[a, b, c]| Box3::of([a, b, c, tip])).collect();
+        let around = added.iter().chain(&swept).fold(Box3::EMPTY, |all, b| all.union(b));
+        // Vertices of the new triangles are corners of the region.
+        let sweeps = |v: VertexId| {
+            let p = self.at(v);
+            let contains = |(b, &[x, y, z]): (&Box3, &[DVec3; 3])| {
+                b.contains(p) && tetrahedron_contains([x, y, z, tip], p)
+            };
+            around.contains(p)
+                && !after.iter().flatten().any(|&w| w == v)
+                && swept.iter().zip(before).any(contains)
+        };
+        self.buckets.all_near(&around, |t, own| {
             if disc.contains(&t) {
                 return true;
             }
             let corners = self.mesh.corners(t);
-            let own = Box3::of(corners.map(|v| self.at(v)));
-            if !own.meets(&around) {
-                return true;
-            }
-            let clear = |new: &[VertexId; 3]| {
-                !own.meets(&of_new(new)) || !meet_in_more(positions, corners, *new)
+            let meets = |(b, new): (&Box3, &[VertexId; 3])| {
+                own.meets(b) && meet_in_more(positions, corners, *new)
             };
-            after.iter().all(clear) && corners.iter().all(|&v| !self.swept(change, v))
+            !added.iter().zip(after).any(meets) && !corners.iter().any(|&v| sweeps(v))
         })
-    }
-
-    /// Whether a vertex lies in the region that a change sweeps over. Vertices of the new triangles are its corners.
-    fn swept(&self, change: &Change<'_>, v: VertexId) -> bool {
-        let (p, tip) = (self.at(v), self.at(change.apex));
-        let within = |&[a, b, c]: &[DVec3; 3]| {
-            Box3::of([a, b, c, tip]).contains(p) && tetrahedron_contains([a, b, c, tip], p)
-        };
-        change.before.iter().any(within) && !change.after.iter().flatten().any(|&w| w == v)
     }
 }
