@@ -11,13 +11,13 @@
 use std::time::Instant;
 
 use glam::DVec3;
+use welter_meshing::Monitor;
 use welter_meshing::field::ScalarField;
 use welter_meshing::grid::{Grid3, Samples};
 use welter_meshing::isosurface::{MarchingCubes, marching_cubes};
 use welter_meshing::remesh::{Equilateral, StartingMesh, equilateral, starting_mesh};
 use welter_meshing::surface::measure::angle_statistics;
 use welter_meshing::surface::{EmbeddedMesh, Topology, TriId, TriMesh};
-use welter_meshing::Monitor;
 
 type Field = fn(DVec3) -> f64;
 
@@ -37,8 +37,15 @@ fn two_balls(p: DVec3) -> f64 {
 
 /// The smooth union of five balls.
 fn blobs(p: DVec3) -> f64 {
-    let balls = [[0.0, 0.0, 0.0, 0.4], [0.45, 0.1, 0.0, 0.3], [-0.4, 0.2, 0.1, 0.3], [0.0, -0.5, 0.1, 0.3], [0.1, 0.1, 0.5, 0.3]];
-    let sum: f64 = balls.iter().map(|&[x, y, z, r]| (-((p - DVec3::new(x, y, z)).length() - r) * 12.0).exp()).sum();
+    let balls = [
+        [0.0, 0.0, 0.0, 0.4],
+        [0.45, 0.1, 0.0, 0.3],
+        [-0.4, 0.2, 0.1, 0.3],
+        [0.0, -0.5, 0.1, 0.3],
+        [0.1, 0.1, 0.5, 0.3],
+    ];
+    let sum: f64 =
+        balls.iter().map(|&[x, y, z, r]| (-((p - DVec3::new(x, y, z)).length() - r) * 12.0).exp()).sum();
     -sum.ln() / 12.0
 }
 
@@ -98,7 +105,9 @@ fn grid(spacing: f64) -> Grid3 {
 }
 
 fn quality() {
-    println!("triangles   before: angle   after: angles       edges / mean            near mean  off   refused(shape, meet)  Hausdorff  order");
+    println!(
+        "triangles   before: angle   after: angles       edges / mean            near mean  off   refused(shape, meet)  Hausdorff  order"
+    );
     let mut least = 180.0_f64;
     for (name, field) in FIELDS {
         let mut coarser: Option<(f64, f64)> = None;
@@ -109,9 +118,11 @@ fn quality() {
             let cubes = marching_cubes(&samples, &MarchingCubes::default(), &nobody).expect("numbers");
             let before = angle_statistics(&cubes).expect("triangles").min.to_degrees();
             let parameters = StartingMesh::default();
-            let (mesh, report) = starting_mesh(&grid(spacing), &field, &parameters, &nobody).expect("numbers");
+            let (mesh, report) =
+                starting_mesh(&grid(spacing), &field, &parameters, &nobody).expect("numbers");
             let embedded = EmbeddedMesh::check(&mesh, &nobody).is_ok();
-            let same = Topology::of(&mesh).euler_characteristic() == Topology::of(&cubes).euler_characteristic();
+            let same =
+                Topology::of(&mesh).euler_characteristic() == Topology::of(&cubes).euler_characteristic();
             let far = farthest(&mesh, &field, spacing * 1e-3);
             let order = coarser.map_or(f64::NAN, |(s, f)| (f / far).ln() / (s / spacing).ln());
             coarser = Some((spacing, far));

@@ -1,11 +1,11 @@
 //! [`equilateral`]: the driver.
 
+use super::RemeshError;
 use super::buckets::MOST_REACHES;
 use super::connectivity::Connectivity;
 use super::report::RemeshReport;
 use super::shape::area_vector;
 use super::workpiece::Workpiece;
-use super::RemeshError;
 use crate::field::ScalarField;
 use crate::shapes::{MAX_LENGTH, MAX_SHAPE_TRIANGLES, MIN_LENGTH};
 use crate::surface::{ClosedOrientedMesh, EmbeddedMesh, TriId, TriMesh, TriangleSoup};
@@ -82,8 +82,7 @@ pub fn equilateral(
     parameters.validate()?;
     require_room(mesh, parameters.edge_length)?;
     let connectivity = Connectivity::new(mesh)?;
-    let mut piece =
-        Workpiece::new(surface, parameters.edge_length, connectivity, mesh.positions().to_vec());
+    let mut piece = Workpiece::new(surface, parameters.edge_length, connectivity, mesh.positions().to_vec());
     let mut report = RemeshReport::default();
     for _ in 0..parameters.rounds {
         let stage = monitor.stage("equilateral triangles", 4);
@@ -137,6 +136,7 @@ fn finished<F: ScalarField>(piece: &Workpiece<'_, F>) -> EmbeddedMesh {
     let (triangles, old) = piece.mesh.compacted();
     let positions: Vec<DVec3> = old.iter().map(|&v| piece.at(v)).collect();
     let soup = TriangleSoup { positions, triangles, ..TriangleSoup::default() };
-    let mesh = TriMesh::new(soup).expect("finite positions, numbered without gaps, three different ones a triangle");
+    let mesh =
+        TriMesh::new(soup).expect("finite positions, numbered without gaps, three different ones a triangle");
     EmbeddedMesh::by_construction(ClosedOrientedMesh::by_construction(mesh))
 }

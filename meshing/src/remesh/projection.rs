@@ -102,7 +102,8 @@ mod tests {
 
     #[test]
     fn zeros_of_all_kinds_are_found_within_the_accuracy() {
-        let functions: [(&str, fn(f64) -> f64, f64, f64); 7] = [
+        type Case = (&'static str, fn(f64) -> f64, f64, f64);
+        let functions: [Case; 7] = [
             ("line", |t| t - 0.3, 1.0, 0.3),
             ("line, slope unknown", |t| t - 0.3, 0.0, 0.3),
             ("slope twice too small", |t| t + 0.2, 0.5, -0.2),

@@ -77,9 +77,8 @@ impl<F: ScalarField> Workpiece<'_, F> {
 
     /// Flips edges where that brings the numbers of neighbours nearer to six, or leaves them as near and makes the sharper triangle blunter.
     pub(super) fn flip_edges(&mut self, stage: &Stage<'_>) -> Result<u64, Cancelled> {
-        let mut valences: Vec<i64> = (0..self.positions.len() as u32)
-            .map(|v| self.mesh.valence(VertexId(v)) as i64)
-            .collect();
+        let mut valences: Vec<i64> =
+            (0..self.positions.len() as u32).map(|v| self.mesh.valence(VertexId(v)) as i64).collect();
         let mut flips = 0;
         for (i, h) in self.mesh.edges().collect::<Vec<_>>().into_iter().enumerate() {
             if i % BETWEEN_CHECKS == 0 {

@@ -47,7 +47,11 @@ pub fn starting_mesh(
 ) -> Result<(EmbeddedMesh, RemeshReport), RemeshError> {
     let value = parameters.edge_length_rel;
     if !(0.125..=8.0).contains(&value) {
-        return Err(RemeshError::Parameter { parameter: "edge_length_rel", value, range: "between 1/8 and 8" });
+        return Err(RemeshError::Parameter {
+            parameter: "edge_length_rel",
+            value,
+            range: "between 1/8 and 8",
+        });
     }
     let edge_length = value * grid.spacing();
     let shape = Equilateral { edge_length, rounds: parameters.rounds, ..Equilateral::default() };

@@ -211,9 +211,8 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
                 return true;
             }
             let corners = self.mesh.corners(t);
-            let meets = |(b, new): (&Box3, &[VertexId; 3])| {
-                own.meets(b) && meet_in_more(positions, corners, *new)
-            };
+            let meets =
+                |(b, new): (&Box3, &[VertexId; 3])| own.meets(b) && meet_in_more(positions, corners, *new);
             !added.iter().zip(after).any(meets) && !corners.iter().any(|&v| sweeps(v))
         })
     }
@@ -251,7 +250,10 @@ mod tests {
         assert!(piece.try_move(top, upward(1.4), 1.0), "below the speck");
         assert_eq!(piece.refused.intersection, 0);
         assert!(!piece.try_move(top, upward(1.55), 1.0), "into the speck");
-        assert!(!piece.try_move(top, upward(3.0), 1.0), "beyond: nothing intersects, but the speck would be inside");
+        assert!(
+            !piece.try_move(top, upward(3.0), 1.0),
+            "beyond: nothing intersects, but the speck would be inside"
+        );
         assert_eq!(piece.refused.intersection, 2);
         assert_eq!(piece.at(top), upward(1.4));
         // With the speck out of the way it is free.

@@ -55,7 +55,8 @@ fn a_flat_ellipsoid_thinner_than_its_triangles_stays_embedded() {
 
 #[test]
 fn components_smaller_than_an_edge_do_not_vanish() {
-    let speck = sphere(&Sphere { center: DVec3::new(1.3, 0.0, 0.0), radius: 0.05, edge_length: 0.02 }).unwrap();
+    let speck =
+        sphere(&Sphere { center: DVec3::new(1.3, 0.0, 0.0), radius: 0.05, edge_length: 0.02 }).unwrap();
     let inner = sphere(&Sphere { center: DVec3::ZERO, radius: 1e-6, edge_length: 1e-6 }).unwrap();
     let start = together(&[round(1.0, 0.3), speck, inner.reversed()]);
     let field = |p: DVec3| {
@@ -138,7 +139,8 @@ fn edges_far_longer_and_far_shorter_than_asked_for() {
     let (mesh, report) = remeshed(&start, &|p: DVec3| p.length() - 1.3, 0.2);
     assert_kept(&start, &mesh);
     assert!(report.smallest_angle.to_degrees() > 20.0 && report.edges.near_mean > 0.99);
-    let fine = EmbeddedMesh::new(torus_mesh(&Torus { edge_length: 0.2, ..Torus::default() }).unwrap()).unwrap();
+    let fine =
+        EmbeddedMesh::new(torus_mesh(&Torus { edge_length: 0.2, ..Torus::default() }).unwrap()).unwrap();
     let far = |p: DVec3| p.length() - 9.0;
     let (mesh, _) = remeshed(&fine, &far, 20.0);
     assert_kept(&fine, &mesh);
@@ -148,7 +150,8 @@ fn edges_far_longer_and_far_shorter_than_asked_for() {
 #[test]
 fn what_cannot_be_done_is_refused_by_name() {
     let mesh = together(&[round(1.0, 0.5)]);
-    let with = |parameters: Equilateral| equilateral(&mesh, &ball, &parameters, &Monitor::none()).unwrap_err();
+    let with =
+        |parameters: Equilateral| equilateral(&mesh, &ball, &parameters, &Monitor::none()).unwrap_err();
     let default = Equilateral::default();
     for edge_length in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e80] {
         let error = with(Equilateral { edge_length, ..default });
@@ -159,7 +162,10 @@ fn what_cannot_be_done_is_refused_by_name() {
     let error = with(Equilateral { rounds: 1001, ..default });
     assert!(matches!(error, RemeshError::Parameter { parameter: "rounds", .. }));
     assert!(matches!(with(Equilateral { edge_length: 1e-20, ..default }), RemeshError::TooFar { .. }));
-    assert!(matches!(with(Equilateral { edge_length: 1e-6, ..default }), RemeshError::TooManyTriangles { .. }));
+    assert!(matches!(
+        with(Equilateral { edge_length: 1e-6, ..default }),
+        RemeshError::TooManyTriangles { .. }
+    ));
 
     let stop = AtomicBool::new(true);
     let cancelled = equilateral(&mesh, &ball, &default, &Monitor::new(None, Some(&stop)));

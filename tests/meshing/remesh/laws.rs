@@ -12,7 +12,8 @@ fn scaling_by_a_power_of_two_scales_every_bit() {
         let scale = 2f64.powi(exponent);
         let mut soup = cubes(&grid(11), &blobs).to_soup();
         soup.positions.iter_mut().for_each(|p| *p *= scale);
-        let scaled = EmbeddedMesh::new(ClosedOrientedMesh::new(TriMesh::new(soup).unwrap()).unwrap()).unwrap();
+        let scaled =
+            EmbeddedMesh::new(ClosedOrientedMesh::new(TriMesh::new(soup).unwrap()).unwrap()).unwrap();
         let field = |p: DVec3| blobs(p / scale) * scale;
         let (result, again) = remeshed(&scaled, &field, 0.18 * scale);
         assert_eq!(result.triangles(), mesh.triangles(), "2^{exponent}");
@@ -58,8 +59,9 @@ fn an_exact_translation_changes_rounding_only() {
     soup.positions.iter_mut().for_each(|p| *p = rounded(*p));
     let mut moved = soup.clone();
     moved.positions.iter_mut().for_each(|p| *p += offset);
-    let [here, there] = [soup, moved]
-        .map(|soup| EmbeddedMesh::new(ClosedOrientedMesh::new(TriMesh::new(soup).unwrap()).unwrap()).unwrap());
+    let [here, there] = [soup, moved].map(|soup| {
+        EmbeddedMesh::new(ClosedOrientedMesh::new(TriMesh::new(soup).unwrap()).unwrap()).unwrap()
+    });
     let (here, _) = remeshed(&here, &blobs, 0.17);
     let (there, _) = remeshed(&there, &|p: DVec3| blobs(p - offset), 0.17);
     assert_eq!(here.triangles(), there.triangles());
@@ -69,7 +71,8 @@ fn an_exact_translation_changes_rounding_only() {
 
 #[test]
 fn a_geodesic_sphere_of_the_right_edge_length_stays_good() {
-    let start = EmbeddedMesh::new(sphere(&Sphere { edge_length: 0.65, ..Sphere::default() }).unwrap()).unwrap();
+    let start =
+        EmbeddedMesh::new(sphere(&Sphere { edge_length: 0.65, ..Sphere::default() }).unwrap()).unwrap();
     let (mesh, report) = remeshed(&start, &|p: DVec3| p.length() - 1.0, 0.4);
     assert_eq!((report.splits, report.collapses, report.flips), (0, 0, 0));
     assert!(report.smallest_angle.to_degrees() > 50.0, "{}", report.smallest_angle.to_degrees());

@@ -27,9 +27,15 @@ fn assert_good(name: &str, field: Field, cells: u32) {
     let (mesh, report) = start(&grid, &field);
     assert_kept(&before, &mesh);
     let (angle, near) = plainly(&mesh);
-    println!("{name} {cells}: {} triangles, {angle:.1} degrees, {near:.4} near the mean", mesh.triangles().len());
+    println!(
+        "{name} {cells}: {} triangles, {angle:.1} degrees, {near:.4} near the mean",
+        mesh.triangles().len()
+    );
     assert!(angle >= 20.0 && near >= 0.99, "{name} {cells}: {angle} degrees, {near}");
-    assert!((angle - report.smallest_angle.to_degrees()).abs() < 1e-6 && (near - report.edges.near_mean).abs() < 1e-9);
+    assert!(
+        (angle - report.smallest_angle.to_degrees()).abs() < 1e-6
+            && (near - report.edges.near_mean).abs() < 1e-9
+    );
     assert!((report.edges.mean / grid.spacing() - 1.0).abs() < 0.1, "{}", report.edges.mean);
     assert_eq!(report.off_surface, 0, "{name} {cells}");
     // |f| is at most a few times the distance.

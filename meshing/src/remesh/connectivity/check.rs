@@ -70,7 +70,8 @@ impl Connectivity {
         for h in self.triangles().flat_map(|t| (0..3).map(move |k| HalfEdge::of(t, k))) {
             let o = self.opposite(h);
             let real = o.0 as usize / 3 < self.triangle_slots() && self.has_triangle(o.triangle());
-            if !real || self.opposite(o) != h || self.tail(o) != self.head(h) || self.head(o) != self.tail(h) {
+            if !real || self.opposite(o) != h || self.tail(o) != self.head(h) || self.head(o) != self.tail(h)
+            {
                 return Err(ConnectivityDefect::Opposite { half_edge: h, opposite: o });
             }
         }
@@ -84,11 +85,8 @@ impl Connectivity {
                 return Err(ConnectivityDefect::Fan { vertex: v, turn, triangles });
             }
         }
-        let mut ends: Vec<[VertexId; 2]> = self
-            .edges()
-            .map(|h| (self.tail(h), self.head(h)))
-            .map(|(a, b)| [a.min(b), a.max(b)])
-            .collect();
+        let mut ends: Vec<[VertexId; 2]> =
+            self.edges().map(|h| (self.tail(h), self.head(h))).map(|(a, b)| [a.min(b), a.max(b)]).collect();
         ends.sort_unstable();
         match ends.windows(2).find(|pair| pair[0] == pair[1]) {
             Some(pair) => Err(ConnectivityDefect::DoubleEdge { vertices: pair[0] }),
@@ -157,7 +155,8 @@ mod tests {
 
     #[test]
     fn a_tetrahedron_is_as_far_as_collapses_go() {
-        let mut mesh = Connectivity::new(&box_(&Box_ { edge_length: 0.5, ..Box_::default() }).unwrap()).unwrap();
+        let mut mesh =
+            Connectivity::new(&box_(&Box_ { edge_length: 0.5, ..Box_::default() }).unwrap()).unwrap();
         loop {
             let some = mesh.edges().find(|&h| mesh.can_collapse(h));
             let Some(h) = some else { break };
@@ -211,7 +210,10 @@ mod tests {
             Connectivity::new(&ClosedOrientedMesh::new(TriMesh::new(soup).unwrap()).unwrap())
         };
         let edge = build(second(|v| if v < 2 { v } else { v + 2 })).unwrap_err();
-        assert_eq!(edge, super::super::NotManifold::Edge { vertices: [VertexId(0), VertexId(1)], triangles: 4 });
+        assert_eq!(
+            edge,
+            super::super::NotManifold::Edge { vertices: [VertexId(0), VertexId(1)], triangles: 4 }
+        );
         let vertex = build(second(|v| if v < 1 { v } else { v + 3 })).unwrap_err();
         assert_eq!(vertex, super::super::NotManifold::Vertex { vertex: VertexId(0) });
         assert!(build(second(|v| v + 4)).is_ok());

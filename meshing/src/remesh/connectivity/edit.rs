@@ -55,7 +55,8 @@ impl Connectivity {
         assert!(self.can_flip(half_edge), "who flips an edge asks before");
         let (h, o) = (half_edge, self.opposite(half_edge));
         let [a, b, c, d] = [self.tail(h), self.head(h), self.apex(h), self.apex(o)];
-        let [bc, ca, ad, db] = [h.next(), h.previous(), o.next(), o.previous()].map(|side| self.opposite(side));
+        let [bc, ca, ad, db] =
+            [h.next(), h.previous(), o.next(), o.previous()].map(|side| self.opposite(side));
         let (s, t) = (h.triangle(), o.triangle());
         self.triangles[s.index()] = [d, c, a];
         self.triangles[t.index()] = [c, d, b];
@@ -90,7 +91,8 @@ impl Connectivity {
         assert!(self.can_collapse(half_edge), "who collapses an edge asks before");
         let (h, o) = (half_edge, self.opposite(half_edge));
         let [a, b, c, d] = [self.tail(h), self.head(h), self.apex(h), self.apex(o)];
-        let [cb, ac, da, bd] = [h.next(), h.previous(), o.next(), o.previous()].map(|side| self.opposite(side));
+        let [cb, ac, da, bd] =
+            [h.next(), h.previous(), o.next(), o.previous()].map(|side| self.opposite(side));
         let mut spoke = self.outgoing[b.index()];
         let first = spoke;
         loop {
