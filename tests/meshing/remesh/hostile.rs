@@ -40,6 +40,10 @@ fn walls_a_tenth_of_an_edge_length_apart_stay_apart() {
     // Far thinner: triangles bulge by more than the wall is thick. What would cut through the other side is refused.
     let (mesh, thin) = remeshed(&start, &|p: DVec3| (p.length() - 1.0).abs() - 1e-4, length);
     assert_kept(&start, &mesh);
+    println!(
+        "{} and {} refused for intersection",
+        report.refused_for_intersection, thin.refused_for_intersection
+    );
     assert!(report.refused_for_intersection < thin.refused_for_intersection);
     assert!(thin.refused_for_intersection > 0 && thin.off_surface > 0);
 }
@@ -85,6 +89,10 @@ fn triangles_of_all_kinds_of_badness() {
         let interpolant = |p: DVec3| samples.interpolate(p.to_array());
         let (mesh, report) = remeshed(&start, &interpolant, 0.6);
         assert_kept(&start, &mesh);
+        println!(
+            "{} refused for shape, {} for intersection",
+            report.refused_for_shape, report.refused_for_intersection
+        );
         assert!(report.refused_for_shape > 0 && report.refused_for_intersection > 0);
     }
 }
