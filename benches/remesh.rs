@@ -107,7 +107,7 @@ fn grid(spacing: f64) -> Grid3 {
 
 fn quality() {
     println!(
-        "triangles   before: angle   after: angles       edges / mean            near mean  off   refused(shape, meet)  Hausdorff  order"
+        "triangles   before: angle   after: angles       edges / mean            near mean  off   refused(shape, meet)   distance  order"
     );
     let mut least = 180.0_f64;
     for (name, field) in FIELDS {

@@ -54,18 +54,19 @@ impl Equilateral {
     }
 }
 
-/// The surface with triangles near equilateral and vertices on the zero set of a field; which may grow to either side of the surface.
+/// The surface with triangles near equilateral and vertices on the zero set of a field, which may be positive on either side of the surface.
 ///
-/// Closed, oriented, embedded, and of the same topology by the way it is made; angles and lengths are in the report.
+/// Closed, oriented, embedded, and of the same topology by the way it is made; angles and lengths are in the report. The surface shall be within about half an
+/// edge length of the zero set, as isosurfaces are: vertices from which no zero is found within that stay where they are, and the report counts them.
 ///
 /// ```
 /// use welter_meshing::{DVec3, Monitor, remesh::{Equilateral, equilateral}, shapes, surface::EmbeddedMesh};
-/// // A box is blown up to a ball.
-/// let start = shapes::box_(&shapes::Box_ { edge_length: 0.7, ..Default::default() })?;
-/// let ball = |p: DVec3| p.length() - 1.2;
-/// let parameters = Equilateral { edge_length: 0.4, ..Equilateral::default() };
-/// let (mesh, report) = equilateral(&EmbeddedMesh::new(start)?, &ball, &parameters, &Monitor::none())?;
-/// assert!(mesh.positions().iter().all(|p| (p.length() - 1.2).abs() < 1e-9));
+/// // A ball becomes an ellipsoid.
+/// let start = shapes::sphere(&shapes::Sphere { edge_length: 0.7, ..Default::default() })?;
+/// let ellipsoid = |p: DVec3| (p / DVec3::new(1.1, 1.0, 0.9)).length() - 1.0;
+/// let parameters = Equilateral { edge_length: 0.3, ..Equilateral::default() };
+/// let (mesh, report) = equilateral(&EmbeddedMesh::new(start)?, &ellipsoid, &parameters, &Monitor::none())?;
+/// assert!(mesh.positions().iter().all(|&p| ellipsoid(p).abs() < 1e-9) && report.off_surface == 0);
 /// assert!(report.smallest_angle.to_degrees() > 20.0 && report.edges.near_mean > 0.99);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -8,7 +8,7 @@
 //!
 //! # What it does not promise
 //! * Angles and edge lengths: they are reached by trial and told in the report. On smooth fields whose features are several edge lengths wide, smallest
-//!   angles above 20 degrees were measured throughout (`benches/record/remesh.txt`); where the surface is not resolved, or parts of it are closer
+//!   angles of 30 degrees and a distance of second order were measured (`benches/record/remesh.txt`); where the surface is not resolved, or parts of it are closer
 //!   to each other than triangles are flat, changes are refused and thin triangles stay.
 //! * Creases: corners and ridges of a field are not kept sharp, as vertices move along them and across.
 //! * Every vertex on the surface: one whose field is NaN, or has no zero within half an edge length along the normal, or whose way there is barred, stays
@@ -20,7 +20,7 @@
 //! (`workpiece`).
 //!
 //! # Complexity
-//! Near linear in the number of triangles before and after, as long as those of the surface given have sizes that differ little; a triangle that is much
+//! Near linear in the number of triangles before and after (measured: power 1.18 from 2,000 to 155,000, for caches), as long as those of the surface given have sizes that differ little; a triangle that is much
 //! larger than the others is looked at from all of them until it is split.
 
 mod buckets;

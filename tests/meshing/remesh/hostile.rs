@@ -147,6 +147,12 @@ fn edges_far_longer_and_far_shorter_than_asked_for() {
     let (mesh, report) = remeshed(&start, &|p: DVec3| p.length() - 1.3, 0.2);
     assert_kept(&start, &mesh);
     assert!(report.smallest_angle.to_degrees() > 20.0 && report.edges.near_mean > 0.99);
+    // Most of the box is farther from the ball than vertices are projected; what is near is on it.
+    let off = mesh.positions().iter().filter(|p| (p.length() - 1.3).abs() > 1e-9).count() as u64;
+    assert!(
+        off == report.off_surface
+            && (mesh.positions().len() as u64 / 2..mesh.positions().len() as u64).contains(&off)
+    );
     let fine =
         EmbeddedMesh::new(torus_mesh(&Torus { edge_length: 0.2, ..Torus::default() }).unwrap()).unwrap();
     let far = |p: DVec3| p.length() - 9.0;
