@@ -1,17 +1,20 @@
 //! [`Buckets`]: which triangles may be near a box, while triangles change.
 //!
 //! # What it promises
-//! [`Buckets::all_near`] visits every triangle whose box meets the box asked for, some perhaps twice, as long as every triangle's box has sides of at most
+//! [`Buckets::all_near`] visits every triangle whose box meets the box asked for, some perhaps twice, as long
+//! as every triangle's box has sides of at most
 //! [`Buckets::reach`].
 //!
 //! # Method
-//! Space is cut into cubes with sides of 5/4 of that length. A triangle is in the list of the cube that holds the least corner of its box, so its box ends in
-//! the next cube at the latest: the cubes to look into are those of the box asked for and those before. Cubes are named by a hash of their
-//! integer coordinates; cubes with the same name share a list. Lists are doubly linked through arrays.
+//! Space is cut into cubes with sides of 5/4 of that length. A triangle is in the list of the cube that holds
+//! the least corner of its box, so its box ends in the next cube at the latest: the cubes to look into are
+//! those of the box asked for and those before. Cubes are named by a hash of their integer coordinates; cubes
+//! with the same name share a list. Lists are doubly linked through arrays.
 //!
-//! Rounding: the number of a cube is the floor of a rounded quotient, which is monotone. A triangle that meets the box asked for begins at most
-//! 4/5 of a side before that box does, up to some 2^-52 of the quotients; these are at most 2^41 ([`MOST_REACHES`]), so the remaining fifth is far more
-//! than what rounding can take away, and the floors differ by one at most.
+//! Rounding: the number of a cube is the floor of a rounded quotient, which is monotone. A triangle that
+//! meets the box asked for begins at most 4/5 of a side before that box does, up to some 2^-52 of the
+//! quotients; these are at most 2^41 ([`MOST_REACHES`]), so the remaining fifth is far more than what
+//! rounding can take away, and the floors differ by one at most.
 //!
 //! # Complexity
 //! Constant for each insertion and removal; a query costs the triangles in the cubes it looks into.
@@ -95,7 +98,8 @@ impl Buckets {
         self.entries[triangle.index()].list = END;
     }
 
-    /// Visits every triangle whose box meets `around`, some perhaps twice, with its box, until one visit returns false; whether none did.
+    /// Visits every triangle whose box meets `around`, some perhaps twice, with its box, until one visit
+    /// returns false; whether none did.
     pub(super) fn all_near(&self, around: &Box3, mut visit: impl FnMut(TriId, &Box3) -> bool) -> bool {
         let low = self.cube(around.min).map(|i| i - 1);
         let high = self.cube(around.max);

@@ -1,4 +1,5 @@
-//! The four changes of a [`Workpiece`]: split, collapse, flip, move. Each is made if it is accepted, else nothing has changed.
+//! The four changes of a [`Workpiece`]: split, collapse, flip, move. Each is made if it is accepted, else
+//! nothing has changed.
 //!
 //! Each takes the largest sharpness ([`shape::sharpness`]) that its new triangles may have.
 
@@ -10,7 +11,8 @@ use crate::field::ScalarField;
 use crate::surface::{MAX_TRIANGLES, TriId, VertexId};
 
 impl<F: ScalarField> Workpiece<'_, F> {
-    /// The point where a vertex in the middle of an edge goes, with the normal and slope there; the middle itself where the surface is not found.
+    /// The point where a vertex in the middle of an edge goes, with the normal and slope there; the middle
+    /// itself where the surface is not found.
     pub(super) fn middle(&self, h: HalfEdge) -> (DVec3, DVec3, f64) {
         let [a, b] = [self.mesh.tail(h), self.mesh.head(h)];
         let middle = 0.5 * (self.at(a) + self.at(b));
@@ -57,7 +59,8 @@ impl<F: ScalarField> Workpiece<'_, F> {
         true
     }
 
-    /// Merges the head of an edge into its tail, which goes to `target`. No spoke becomes longer than `longest`.
+    /// Merges the head of an edge into its tail, which goes to `target`. No spoke becomes longer than
+    /// `longest`.
     pub(super) fn try_collapse(&mut self, h: HalfEdge, target: DVec3, worst: f64, longest: f64) -> bool {
         if !self.mesh.can_collapse(h) {
             return false;

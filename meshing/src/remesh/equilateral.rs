@@ -25,9 +25,11 @@ const UNIT_AREA: f64 = 0.433_012_701_892_219_3;
 pub struct Equilateral {
     /// Length that edges shall have, positive. Default: 0.05, that of the built-in shapes.
     pub edge_length: f64,
-    /// Rounds of split, collapse, flip and smooth; 0 to 1000. Default: 6, after which the sharpest angles of the benchmark's fields improve no more.
+    /// Rounds of split, collapse, flip and smooth; 0 to 1000. Default: 6, after which the sharpest angles of
+    /// the benchmark's fields improve no more.
     pub rounds: u32,
-    /// Triangles with angles below this are worked at in the end, in radians; 0 to pi/3. Default: pi/6, which smooth surfaces nearly always reach.
+    /// Triangles with angles below this are worked at in the end, in radians; 0 to pi/3. Default: pi/6, which
+    /// smooth surfaces nearly always reach.
     pub goal_angle: f64,
 }
 
@@ -54,10 +56,12 @@ impl Equilateral {
     }
 }
 
-/// The surface with triangles near equilateral and vertices on the zero set of a field, which may be positive on either side of the surface.
+/// The surface with triangles near equilateral and vertices on the zero set of a field, which may be positive
+/// on either side of the surface.
 ///
-/// Closed, oriented, embedded, and of the same topology by the way it is made; angles and lengths are in the report. The surface shall be within about half an
-/// edge length of the zero set, as isosurfaces are: vertices from which no zero is found within that stay where they are, and the report counts them.
+/// Closed, oriented, embedded, and of the same topology by the way it is made; angles and lengths are in the
+/// report. The surface shall be within about half an edge length of the zero set, as isosurfaces are:
+/// vertices from which no zero is found within that stay where they are, and the report counts them.
 ///
 /// ```
 /// use welter_meshing::{DVec3, Monitor, remesh::{Equilateral, equilateral}, shapes, surface::EmbeddedMesh};
@@ -72,8 +76,8 @@ impl Equilateral {
 /// ```
 ///
 /// # Errors
-/// [`RemeshError`]: parameters out of range; an edge with more than two triangles or a vertex with several fans; an edge length too small for the coordinates
-/// or the area; the monitor.
+/// [`RemeshError`]: parameters out of range; an edge with more than two triangles or a vertex with several
+/// fans; an edge length too small for the coordinates or the area; the monitor.
 pub fn equilateral(
     mesh: &EmbeddedMesh,
     surface: &impl ScalarField,

@@ -2,14 +2,16 @@
 //!
 //! # What it computes
 //! The point `p + t n` with `f(p + t n) = 0`, `|t| <= reach`, for a unit vector `n` along which the field increases; from `p` the search goes only
-//! uphill where the field is negative and only downhill where it is positive. So it finds the sheet whose outside is that of `n`, and not the other side of a
-//! thin wall.
+//! uphill where the field is negative and only downhill where it is positive. So it finds the sheet whose
+//! outside is that of `n`, and not the other side of a thin wall.
 //!
 //! # Method
-//! Newton's step with the slope given, then secants until the zero is between two points, then regula falsi with halving \[Dowell71\], and
-//! bisection where that is slow. Each step is kept inside the bracket. The smallest bracket asked for is [`ACCURACY`] of the edge length; the search also ends
-//! where the field is as small as its slope times that. Where the gradient vanishes on the surface, as that of a cube of a distance does, the slope is that
-//! of differences and the search may end at (STEP_REL^2 ACCURACY)^(1/3) = 5e-6 edge lengths from the zero.
+//! Newton's step with the slope given, then secants until the zero is between two points, then regula falsi
+//! with halving \[Dowell71\], and bisection where that is slow. Each step is kept inside the bracket. The
+//! smallest bracket asked for is [`ACCURACY`] of the edge length; the search also ends where the field is as
+//! small as its slope times that. Where the gradient vanishes on the surface, as that of a cube of a distance
+//! does, the slope is that of differences and the search may end at (STEP_REL^2 ACCURACY)^(1/3) = 5e-6 edge
+//! lengths from the zero.
 //!
 //! # Complexity
 //! Three or four values of a smooth field; at most [`MOST_VALUES`].
@@ -18,7 +20,8 @@ use super::workpiece::Workpiece;
 use crate::DVec3;
 use crate::field::ScalarField;
 
-/// How far from the zero the search may end, in edge lengths: 2^-33, about a ten-thousandth of what triangles of a millionth of the radius are off.
+/// How far from the zero the search may end, in edge lengths: 2^-33, about a ten-thousandth of what triangles
+/// of a millionth of the radius are off.
 const ACCURACY: f64 = 1.0 / (1_u64 << 33) as f64;
 
 /// Values of the field in one search: enough to bisect from an edge length to [`ACCURACY`].
@@ -34,8 +37,9 @@ const BLIND_STEP: f64 = 0.125;
 pub(super) const REACH_REL: f64 = 0.5;
 
 impl<F: ScalarField> Workpiece<'_, F> {
-    /// The point of the surface on the line through `start` along a unit normal, along which the field changes at about the rate `slope` (0 if
-    /// unknown); none if there is no zero within [`REACH_REL`] edge lengths, or a value on the way is not a number.
+    /// The point of the surface on the line through `start` along a unit normal, along which the field
+    /// changes at about the rate `slope` (0 if unknown); none if there is no zero within [`REACH_REL`] edge
+    /// lengths, or a value on the way is not a number.
     pub(super) fn project(&self, start: DVec3, normal: DVec3, slope: f64) -> Option<DVec3> {
         let value = |t: f64| {
             let value = self.side * self.field.value(start + t * normal);

@@ -1,4 +1,5 @@
-//! The stages of a round of isotropic remeshing \[Botsch04\]: split long edges, collapse short ones, flip towards six neighbours, smooth and project.
+//! The stages of a round of isotropic remeshing \[Botsch04\]: split long edges, collapse short ones, flip
+//! towards six neighbours, smooth and project.
 
 use super::connectivity::HalfEdge;
 use super::workpiece::Workpiece;
@@ -6,16 +7,19 @@ use crate::field::ScalarField;
 use crate::surface::VertexId;
 use crate::{Cancelled, DVec3, Stage};
 
-/// Longest edge, in target lengths: its halves are as far below the target as it is above, by ratio \[Botsch04\].
+/// Longest edge, in target lengths: its halves are as far below the target as it is above, by ratio
+/// \[Botsch04\].
 pub(super) const LONG_REL: f64 = 4.0 / 3.0;
 
 /// Shortest edge, in target lengths \[Botsch04\].
 pub(super) const SHORT_REL: f64 = 4.0 / 5.0;
 
-/// Sharpness that regular rounds may bring about: an angle of 20 degrees. The improvement at the end has less to do then.
+/// Sharpness that regular rounds may bring about: an angle of 20 degrees. The improvement at the end has less
+/// to do then.
 const ROUND_SHARPNESS: f64 = 0.939_692_620_785_908_4;
 
-/// Moves below this many target lengths are not made: a third of all, and without them angles and lengths measured the same.
+/// Moves below this many target lengths are not made: a third of all, and without them angles and lengths
+/// measured the same.
 const STILL_REL: f64 = 1.0 / 32.0;
 
 /// Sweeps of splitting: each halves the longest edges, from any ratio of two lengths that is allowed.
@@ -75,7 +79,8 @@ impl<F: ScalarField> Workpiece<'_, F> {
         targets.into_iter().any(|target| self.try_collapse(h, target, worst, longest))
     }
 
-    /// Flips edges where that brings the numbers of neighbours nearer to six, or leaves them as near and makes the sharper triangle blunter.
+    /// Flips edges where that brings the numbers of neighbours nearer to six, or leaves them as near and
+    /// makes the sharper triangle blunter.
     pub(super) fn flip_edges(&mut self, stage: &Stage<'_>) -> Result<u64, Cancelled> {
         let mut valences: Vec<i64> =
             (0..self.positions.len() as u32).map(|v| self.mesh.valence(VertexId(v)) as i64).collect();
@@ -151,7 +156,8 @@ impl<F: ScalarField> Workpiece<'_, F> {
         false
     }
 
-    /// Brings the vertices onto the surface that are not. Returns how many were moved, and how many stayed off.
+    /// Brings the vertices onto the surface that are not. Returns how many were moved, and how many stayed
+    /// off.
     pub(super) fn project_all(&mut self, stage: &Stage<'_>) -> Result<[u64; 2], Cancelled> {
         let (mut moves, mut off) = (0, 0);
         for v in (0..self.positions.len() as u32).map(VertexId) {

@@ -1,4 +1,5 @@
-//! Numbers of one triangle that tell how good it is. All are free of units, or squares of lengths: nothing overflows for lengths up to
+//! Numbers of one triangle that tell how good it is. All are free of units, or squares of lengths: nothing
+//! overflows for lengths up to
 //! [`MAX_LENGTH`](crate::shapes::MAX_LENGTH).
 
 use crate::DVec3;
@@ -9,8 +10,8 @@ pub(super) fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-/// Cosine of the smallest angle: 1/2 of the equilateral triangle, 1 of one that is flat. By the law of cosines, as the smallest angle
-/// is opposite to the shortest side.
+/// Cosine of the smallest angle: 1/2 of the equilateral triangle, 1 of one that is flat. By the law of
+/// cosines, as the smallest angle is opposite to the shortest side.
 #[inline]
 pub(super) fn sharpness([a, b, c]: [DVec3; 3]) -> f64 {
     let mut squares = [a.distance_squared(b), b.distance_squared(c), c.distance_squared(a)];
@@ -31,7 +32,8 @@ pub(super) fn sharpest(triangles: impl Iterator<Item = [DVec3; 3]>) -> f64 {
     triangles.map(sharpness).fold(0.5, f64::max)
 }
 
-/// Whether one sharpness improves on another: by more than rounding, so that no change is undone and made again.
+/// Whether one sharpness improves on another: by more than rounding, so that no change is undone and made
+/// again.
 #[inline]
 pub(super) fn blunter(after: f64, before: f64) -> bool {
     after < before - 1e-6

@@ -10,8 +10,8 @@ use crate::surface::EmbeddedMesh;
 /// Parameters of [`starting_mesh`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartingMesh {
-    /// Length that edges shall have, in spacings of the grid; 1/8 to 8. Default 1: as many triangles as the grid tells shape, about 2.3 for each square
-    /// of a grid's cell.
+    /// Length that edges shall have, in spacings of the grid; 1/8 to 8. Default 1: as many triangles as the
+    /// grid tells shape, about 2.3 for each square of a grid's cell.
     pub edge_length_rel: f64,
     /// As of [`Equilateral`]. Default 6.
     pub rounds: u32,
@@ -23,9 +23,11 @@ impl Default for StartingMesh {
     }
 }
 
-/// The surface of a field, seen by a grid, with triangles near equilateral: [`marching_cubes`], then [`equilateral`].
+/// The surface of a field, seen by a grid, with triangles near equilateral: [`marching_cubes`], then
+/// [`equilateral`].
 ///
-/// Where the field is negative at the wall of the grid the wall closes the surface; vertices there are off the zero set and counted so.
+/// Where the field is negative at the wall of the grid the wall closes the surface; vertices there are off
+/// the zero set and counted so.
 ///
 /// ```
 /// use welter_meshing::{DVec3, Monitor, grid::Grid3, remesh::{StartingMesh, starting_mesh}};

@@ -1,22 +1,27 @@
 //! [`Workpiece`]: a surface under change, and the one way in which it changes.
 //!
 //! # The one way
-//! Splits, flips, collapses and moves of a vertex are all the same to the embedding: the triangles of a disc are replaced by those that join the
-//! boundary of the disc to one point, the apex (the new vertex, an apex of the flipped edge, the vertex that remains, the vertex that moves).
+//! Splits, flips, collapses and moves of a vertex are all the same to the embedding: the triangles of a disc
+//! are replaced by those that join the boundary of the disc to one point, the apex (the new vertex, an apex
+//! of the flipped edge, the vertex that remains, the vertex that moves).
 //! [`Workpiece::accepts`] decides whether such a change may be made.
 //!
 //! # What it promises
-//! An accepted change keeps the surface embedded, by the exact predicate that defines it: no new triangle meets another new one, or one that stays, in more
-//! than the vertex or edge that they share. The triangles that stay do not meet each other as before.
+//! An accepted change keeps the surface embedded, by the exact predicate that defines it: no new triangle
+//! meets another new one, or one that stays, in more than the vertex or edge that they share. The triangles
+//! that stay do not meet each other as before.
 //!
-//! It also keeps what is inside of what: the disc, the new triangles and the tetrahedra between the apex and the triangles of the disc bound the region
-//! swept by the change, and no vertex of a triangle that stays lies in one of these tetrahedra, but those on the boundary of the disc. So no other component
-//! is swept over: it would have a vertex there, or cross the old or the new triangles. (A triangle of the same component with all corners on the boundary
-//! of the disc has no such vertex. That the disc does not pass to its other side, as the three sides of a tetrahedron could, is up to the criterion below.)
+//! It also keeps what is inside of what: the disc, the new triangles and the tetrahedra between the apex and
+//! the triangles of the disc bound the region swept by the change, and no vertex of a triangle that stays
+//! lies in one of these tetrahedra, but those on the boundary of the disc. So no other component is swept
+//! over: it would have a vertex there, or cross the old or the new triangles. (A triangle of the same
+//! component with all corners on the boundary of the disc has no such vertex. That the disc does not pass to
+//! its other side, as the three sides of a tetrahedron could, is up to the criterion below.)
 //!
 //! # What else it asks
-//! The shape of new triangles, which is a criterion and no promise: their normals are at most [`STEEPEST`] off those of the field at their corners, or at
-//! least no worse than those of the disc; so a fold can be undone, but none is made.
+//! The shape of new triangles, which is a criterion and no promise: their normals are at most [`STEEPEST`]
+//! off those of the field at their corners, or at least no worse than those of the disc; so a fold can be
+//! undone, but none is made.
 
 use super::buckets::Buckets;
 use super::connectivity::{Connectivity, HalfEdge};
@@ -27,14 +32,17 @@ use crate::spatial::{Box3, meet_in_more};
 use crate::surface::{TriId, VertexId};
 use welter_predicates::intersection::tetrahedron_contains;
 
-/// Cosine of the largest angle between the normal of a new triangle and the mean normal at its corners: 60 degrees. A triangle of edge length L
-/// inscribed in a sphere of radius r is off by up to asin(L / r) or so; surfaces that a grid resolves have r > L.
+/// Cosine of the largest angle between the normal of a new triangle and the mean normal at its corners: 60
+/// degrees. A triangle of edge length L inscribed in a sphere of radius r is off by up to asin(L / r) or so;
+/// surfaces that a grid resolves have r > L.
 const STEEPEST: f64 = 0.5;
 
-/// Half the distance over which fields are differenced, in edge lengths: far above the rounding of coordinates, far below the size of features.
+/// Half the distance over which fields are differenced, in edge lengths: far above the rounding of
+/// coordinates, far below the size of features.
 pub(super) const STEP_REL: f64 = 1.0 / 1024.0;
 
-/// Sides of boxes that triangles may have in any case, in edge lengths: a little above the longest edges that remain.
+/// Sides of boxes that triangles may have in any case, in edge lengths: a little above the longest edges that
+/// remain.
 const REACH_REL: f64 = 1.5;
 
 /// What became of proposed changes.
@@ -60,7 +68,8 @@ pub(super) struct Workpiece<'a, F> {
     pub(super) refused: Refusals,
 }
 
-/// A change to be judged: the apex is at its new position already, the triangles of the disc are listed with their old corners.
+/// A change to be judged: the apex is at its new position already, the triangles of the disc are listed with
+/// their old corners.
 pub(super) struct Change<'c> {
     pub(super) apex: VertexId,
     pub(super) disc: &'c [TriId],
@@ -158,7 +167,8 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
             if usable { (gradient / slope, slope) } else { (of_mesh, 0.0) };
     }
 
-    /// Cosine of the angle between a triangle's normal and the mean normal at its corners; -1 where one of them has no direction.
+    /// Cosine of the angle between a triangle's normal and the mean normal at its corners; -1 where one of
+    /// them has no direction.
     pub(super) fn uprightness(&self, corners: [VertexId; 3]) -> f64 {
         let area = shape::area_vector(corners.map(|v| self.at(v)));
         let mean: DVec3 = corners.iter().map(|v| self.normals[v.index()]).sum();

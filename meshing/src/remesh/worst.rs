@@ -1,10 +1,11 @@
 //! The last stage: triangles with small angles, sharpest first.
 //!
 //! # Method
-//! For each triangle below the goal: flip one of its edges, move one of its corners, or collapse its shortest edge, whichever is the first
-//! that leaves all triangles concerned blunter than the sharpest of them was. So the sharpest triangle of a neighbourhood never gets sharper, and the stage ends.
-//! A corner is moved by a pattern search in its tangent plane: towards the mean of the neighbours, then along eight directions with halving steps, and
-//! the best place is projected.
+//! For each triangle below the goal: flip one of its edges, move one of its corners, or collapse its shortest
+//! edge, whichever is the first that leaves all triangles concerned blunter than the sharpest of them was. So
+//! the sharpest triangle of a neighbourhood never gets sharper, and the stage ends. A corner is moved by a
+//! pattern search in its tangent plane: towards the mean of the neighbours, then along eight directions with
+//! halving steps, and the best place is projected.
 
 use super::connectivity::HalfEdge;
 use super::rounds::{BETWEEN_CHECKS, LONG_REL};

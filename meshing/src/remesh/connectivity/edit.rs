@@ -13,7 +13,8 @@ use super::{Connectivity, HalfEdge, REMOVED};
 use crate::surface::{TriId, VertexId};
 
 impl Connectivity {
-    /// Puts a new vertex on an edge: its two triangles become four. The triangles of the half-edge and its opposite keep the half-edge's tail.
+    /// Puts a new vertex on an edge: its two triangles become four. The triangles of the half-edge and its
+    /// opposite keep the half-edge's tail.
     ///
     /// # Panics
     /// If the half-edge is not one of a triangle in use, or ids are used up.
@@ -47,7 +48,8 @@ impl Connectivity {
         c != d && keeps(self.tail(h)) && keeps(self.head(h)) && !self.adjacent(c, d)
     }
 
-    /// Replaces an edge by that between its apexes. Afterwards the half-edge's triangle is `d c a`, that of its opposite `c d b`.
+    /// Replaces an edge by that between its apexes. Afterwards the half-edge's triangle is `d c a`, that of
+    /// its opposite `c d b`.
     ///
     /// # Panics
     /// If the edge cannot be flipped ([`Connectivity::can_flip`]).
@@ -71,8 +73,8 @@ impl Connectivity {
         self.outgoing[d.index()] = HalfEdge::of(t, 1);
     }
 
-    /// Whether an edge can be collapsed without a change of topology: its ends have no common neighbours but the two apexes, and their component is not a
-    /// tetrahedron.
+    /// Whether an edge can be collapsed without a change of topology: its ends have no common neighbours but
+    /// the two apexes, and their component is not a tetrahedron.
     #[must_use]
     pub fn can_collapse(&self, half_edge: HalfEdge) -> bool {
         let (h, o) = (half_edge, self.opposite(half_edge));

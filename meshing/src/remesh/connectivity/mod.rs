@@ -1,21 +1,26 @@
-//! [`Connectivity`]: which triangles of a closed surface are neighbours, and how edges are split, flipped and collapsed.
+//! [`Connectivity`]: which triangles of a closed surface are neighbours, and how edges are split, flipped and
+//! collapsed.
 //!
 //! # What it computes
-//! Nothing of geometry: corners of triangles, the opposite of each half-edge, one half-edge out of each vertex. Positions and all criteria belong to who
-//! calls.
+//! Nothing of geometry: corners of triangles, the opposite of each half-edge, one half-edge out of each
+//! vertex. Positions and all criteria belong to who calls.
 //!
 //! # What it promises
-//! * Every edge has two triangles, one each way; every vertex in use has one fan; no two edges have the same ends; a triangle has three different corners.
-//!   [`Connectivity::check`] tells where that is broken, and after no sequence of calls it is.
-//! * Splits, flips and collapses keep the number of components, their genus and their orientation. What would not is refused beforehand by
-//!   [`Connectivity::can_flip`] and [`Connectivity::can_collapse`] (the link condition \[Dey99\]).
-//! * Ids of elements that live on never change. Those of removed ones are not given out again; [`Connectivity::compacted`] numbers anew.
+//! * Every edge has two triangles, one each way; every vertex in use has one fan; no two edges have the same
+//!   ends; a triangle has three different corners. [`Connectivity::check`] tells where that is broken, and
+//!   after no sequence of calls it is.
+//! * Splits, flips and collapses keep the number of components, their genus and their orientation. What would
+//!   not is refused beforehand by [`Connectivity::can_flip`] and [`Connectivity::can_collapse`] (the link
+//!   condition \[Dey99\]).
+//! * Ids of elements that live on never change. Those of removed ones are not given out again;
+//!   [`Connectivity::compacted`] numbers anew.
 //!
 //! # What it does not promise
 //! Room for edges with more than two triangles: such meshes are refused with the edge or vertex.
 //!
 //! # Method
-//! Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next. A triangle is on the left of its half-edges.
+//! Half-edge `3 t + k` runs from corner `k` of triangle `t` to the next. A triangle is on the left of its
+//! half-edges.
 //!
 //! # Complexity
 //! An operation costs as much as the triangles at the ends of its edge; nothing is allocated but by splits.
@@ -108,7 +113,8 @@ pub enum NotManifold {
 /// The corner of a triangle that was removed.
 const REMOVED: VertexId = VertexId(u32::MAX);
 
-/// Neighbourhood of triangles in a closed surface with two triangles at every edge and one fan at every vertex.
+/// Neighbourhood of triangles in a closed surface with two triangles at every edge and one fan at every
+/// vertex.
 ///
 /// ```
 /// use welter_meshing::{remesh::connectivity::Connectivity, shapes, surface::VertexId};
@@ -131,8 +137,8 @@ impl Connectivity {
     /// The connectivity of a closed surface.
     ///
     /// # Errors
-    /// [`NotManifold`] with the first edge that has more than two triangles, else the first vertex with several fans, else the first two triangles with the
-    /// same corners.
+    /// [`NotManifold`] with the first edge that has more than two triangles, else the first vertex with
+    /// several fans, else the first two triangles with the same corners.
     pub fn new(mesh: &ClosedOrientedMesh) -> Result<Self, NotManifold> {
         let topology = Topology::of(mesh);
         if let Some(&edge) = topology.non_manifold_edges().first() {
@@ -252,7 +258,8 @@ impl Connectivity {
         self.tail(half_edge.previous())
     }
 
-    /// The half-edges out of a vertex, counterclockwise seen from the side from which triangles are; none of a vertex that is not in use.
+    /// The half-edges out of a vertex, counterclockwise seen from the side from which triangles are; none of
+    /// a vertex that is not in use.
     pub fn around(&self, vertex: VertexId) -> impl Iterator<Item = HalfEdge> + '_ {
         let first = self.outgoing[vertex.index()];
         let mut next = (first != HalfEdge::NONE).then_some(first);
@@ -281,7 +288,8 @@ impl Connectivity {
         self.neighbours(a).any(|v| v == b)
     }
 
-    /// The triangles in use with vertices numbered without gaps, and for each new vertex its old id. Orders are kept.
+    /// The triangles in use with vertices numbered without gaps, and for each new vertex its old id. Orders
+    /// are kept.
     #[must_use]
     pub fn compacted(&self) -> (Vec<[u32; 3]>, Vec<VertexId>) {
         let old: Vec<VertexId> = self.vertices().collect();
