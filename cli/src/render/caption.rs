@@ -3,9 +3,9 @@
 //! Strokes of even width with round ends: a pixel's ink is its distance to the nearest stroke, so text is smooth at any size.
 
 use super::color::Rgb;
-use super::glyphs::{CAPITAL, GAP, glyph};
 use super::image::Image;
 use super::scene::Caption;
+use welter_meshing::field::text::{CAPITAL, GAP, glyph};
 
 /// Height of capitals in the title and in the lines, as shares of the shorter side of the picture, and at least in pixels.
 const TITLE: f32 = 0.024;

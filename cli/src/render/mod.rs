@@ -16,7 +16,6 @@ mod color;
 mod color_map;
 mod floor;
 mod glow;
-mod glyphs;
 mod image;
 mod light;
 mod model;

@@ -6,22 +6,22 @@
 
 /// One stroke of a glyph.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Stroke {
+pub struct Stroke {
     /// Polyline on the grid, x from the left edge, y up from the baseline.
-    pub(super) points: Vec<[f32; 2]>,
+    pub points: Vec<[f32; 2]>,
 }
 
 /// Height of capitals above the baseline.
-pub(super) const CAPITAL: f32 = 9.0;
+pub const CAPITAL: f32 = 9.0;
 /// Space between glyphs.
-pub(super) const GAP: f32 = 2.4;
+pub const GAP: f32 = 2.4;
 /// Baseline on the grid.
 const BASELINE: f32 = 3.0;
 /// Line segments for each span of a spline.
 const STEPS: usize = 6;
 
 /// Advance width without the gap, and strokes. Characters other than printable ASCII are drawn as `?`.
-pub(super) fn glyph(c: char) -> (f32, Vec<Stroke>) {
+pub fn glyph(c: char) -> (f32, Vec<Stroke>) {
     let index = (c as usize).wrapping_sub(32);
     let &(width, strokes) = GLYPHS.get(index).unwrap_or(&GLYPHS['?' as usize - 32]);
     (width, strokes.split_whitespace().map(stroke).collect())
