@@ -5,6 +5,7 @@ mod accepted;
 mod malformed;
 mod peer;
 mod polygons;
+mod vti;
 
 use proptest::prelude::*;
 use welter_meshing::DVec3;

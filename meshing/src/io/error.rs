@@ -140,7 +140,7 @@ impl ReadError {
     }
 }
 
-/// Why a surface could not be written.
+/// Why a surface or a grid could not be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -191,6 +191,26 @@ pub enum WriteError {
         count: usize,
         /// How many there may be.
         limit: u64,
+    },
+    /// An array has not as many numbers as its grid has places for.
+    #[error("array {name:?} has {values} numbers, {components} for each of {places} places are needed")]
+    ArrayLength {
+        /// The array.
+        name: String,
+        /// How many numbers it has.
+        values: usize,
+        /// Numbers of each node or cell.
+        components: usize,
+        /// Number of nodes or cells.
+        places: usize,
+    },
+    /// A name that cannot be that of an array.
+    #[error("the array name {name:?} {why}")]
+    ArrayName {
+        /// The name.
+        name: String,
+        /// What is wrong with it.
+        why: &'static str,
     },
     /// The underlying writer failed.
     #[error("cannot write: {0}")]

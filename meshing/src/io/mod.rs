@@ -1,4 +1,4 @@
-//! Readers and writers of surface files over `Read` and `Write`: OBJ, PLY, STL and OFF.
+//! Readers and writers of surface files over `Read` and `Write`: OBJ, PLY, STL and OFF; and a writer of grids: VTI.
 //!
 //! **Promises.**
 //! * Every finite coordinate of a text file becomes the nearest f64, and what [`write()`] writes as text or as PLY comes
@@ -30,9 +30,11 @@ mod stl;
 mod text;
 mod tokens;
 mod view;
+mod vti;
 
 pub use error::{Place, ReadError, WriteError};
 pub use view::SurfaceData;
+pub use vti::{DataArray, VtiEncoding, write_vti};
 
 use crate::surface::TriangleSoup;
 use std::fmt;
