@@ -30,6 +30,7 @@ const fn shape(
 /// Every shape that [`by_name`] knows.
 pub const NAMES: &[NamedShape] = &[
     shape("sphere", [1, 0], false, "geodesic icosahedron of radius 1"),
+    shape("two-spheres", [2, 0], false, "two balls of radius 0.2 at a distance of 0.5"),
     shape("torus", [1, 1], false, "torus of radii 1 and 0.4"),
     shape("box", [1, 0], false, "cube of side 2"),
     shape("dumbbell", [1, 0], false, "two balls joined by a thin neck"),
@@ -48,6 +49,8 @@ pub const NAMES: &[NamedShape] = &[
         true,
         "a Moebius band of thickness that goes twice round and crosses itself",
     ),
+    shape("gyroid", [1, 13], false, "a labyrinth of a gyroid, cut by a ball of radius 1"),
+    shape("text", [4, 0], false, "a word drawn by a round pen"),
 ];
 
 /// A shape of [`NAMES`] with its default parameters; `size` replaces the default edge length, which is absolute.
@@ -72,6 +75,7 @@ pub fn by_name(name: &str, size: Option<f64>) -> Result<ClosedOrientedMesh, Shap
     }
     match name {
         "sphere" => sized!(sphere, Sphere::default()),
+        "two-spheres" => sized!(two_spheres, TwoSpheres::default()),
         "torus" => sized!(torus, Torus::default()),
         "box" => sized!(box_, Box_::default()),
         "dumbbell" => sized!(dumbbell, Dumbbell::default()),
@@ -85,6 +89,8 @@ pub fn by_name(name: &str, size: Option<f64>) -> Result<ClosedOrientedMesh, Shap
         "figure-eight" => sized!(figure_eight, FigureEight::default()),
         "moebius" => sized!(moebius, Moebius::default()),
         "double-moebius" => sized!(double_moebius, Moebius::default()),
+        "gyroid" => sized!(gyroid_ball, GyroidBall::default()),
+        "text" => sized!(text_surface, TextSurface::default()),
         _ => Err(ShapeError::UnknownName { name: name.to_owned(), nearest: nearest(name) }),
     }
 }

@@ -9,6 +9,9 @@
 //!  |     _________     |      r + f from the axis and R + f from the sphere's centre
 //!   \___/         \___/
 //! ```
+//! It stands in for the dumbbell of \[Brochu12\] 3.3.2, which is Sethian's and whose sizes are not given there: two balls and a handle thin
+//! enough to pinch off before the balls vanish. The fillets are an addition: without, curvature would jump at the neck's ends.
+//!
 //! Each ring of vertices has as many as its circumference needs, so triangles keep their size toward the poles.
 
 use super::error::{ShapeError, divisions, finish, require, require_length, require_triangles};

@@ -1,11 +1,15 @@
 //! What a generator refuses: [`ShapeError`], and the checks of parameters that all generators share.
 
+use crate::field::FieldError;
 use crate::surface::{ClosedOrientedMesh, TriMesh, TriangleSoup};
 use glam::DVec3;
 use thiserror::Error;
 
 /// Most triangles a generator makes: about 2.4 GB of positions and indices.
 pub const MAX_SHAPE_TRIANGLES: u32 = 1 << 26;
+
+/// Most nodes of the grid on which a generator samples a field: 2 GiB of numbers.
+pub const MAX_SHAPE_SAMPLES: u32 = 1 << 28;
 
 /// Longest length and largest coordinate of a parameter: squares and cubes of it do not overflow. A larger
 /// surface is a scaled copy.
@@ -46,6 +50,19 @@ pub enum ShapeError {
         /// About how many triangles it needs.
         triangles: f64,
     },
+    /// The edge length is too small for the extent of a shape that is the surface of a field.
+    #[error(
+        "edge length {edge_length} needs a grid of about {samples:.3e} nodes, more than {MAX_SHAPE_SAMPLES}"
+    )]
+    TooManySamples {
+        /// The edge length asked for.
+        edge_length: f64,
+        /// About how many nodes it needs.
+        samples: f64,
+    },
+    /// The field of the shape is refused.
+    #[error(transparent)]
+    Field(#[from] FieldError),
 }
 
 fn suggestion(nearest: Option<&str>) -> String {

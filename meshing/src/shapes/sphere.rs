@@ -1,10 +1,12 @@
-//! The sphere, as a geodesic icosahedron: [`sphere`].
+//! The sphere, as a geodesic icosahedron: [`sphere`]; and two of them: [`two_spheres`].
 //!
 //! Method: each face of the icosahedron is divided into `n^2` triangles by a regular grid (any frequency `n`, not
 //! only powers of two) and the grid points are moved out to the sphere. 20 n^2 triangles, 10 n^2 + 2 vertices, of
 //! which 12 have five neighbours and the others six. Edge lengths differ by a factor of up to 1.8 at large `n`.
 
-use super::error::{ShapeError, divisions, finish, require_coordinates, require_length, require_triangles};
+use super::error::{
+    ShapeError, divisions, finish, require, require_coordinates, require_length, require_triangles,
+};
 use crate::surface::{ClosedOrientedMesh, TriangleSoup};
 use glam::DVec3;
 
@@ -51,6 +53,51 @@ pub fn sphere(parameters: &Sphere) -> Result<ClosedOrientedMesh, ShapeError> {
     for position in &mut soup.positions {
         *position = center + radius * *position;
     }
+    Ok(finish(soup))
+}
+
+/// Parameters of [`two_spheres`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoSpheres {
+    /// Distance of the centres, which lie on the x axis, symmetric to the origin; greater than two radii. Default: 0.5, as in
+    /// \[Brochu12\] 3.3.1.
+    pub distance: f64,
+    /// Radius of both, positive. Default: 0.2, as there.
+    pub radius: f64,
+    /// Longest edge wanted, positive. Default: 0.0165, which gives 10,240 triangles (there the mean is about 0.02).
+    pub edge_length: f64,
+}
+
+impl Default for TwoSpheres {
+    fn default() -> Self {
+        Self { distance: 0.5, radius: 0.2, edge_length: 0.0165 }
+    }
+}
+
+/// Two spheres apart from each other, which merge when they move along their normals \[Brochu12\].
+///
+/// ```
+/// use welter_meshing::shapes::{TwoSpheres, two_spheres};
+/// let mesh = two_spheres(&TwoSpheres { edge_length: 0.05, ..TwoSpheres::default() })?;
+/// assert_eq!(mesh.positions().len() * 2, mesh.triangles().len() + 8);
+/// # Ok::<(), welter_meshing::shapes::ShapeError>(())
+/// ```
+///
+/// # Errors
+/// [`ShapeError`] for a parameter out of range.
+pub fn two_spheres(parameters: &TwoSpheres) -> Result<ClosedOrientedMesh, ShapeError> {
+    let &TwoSpheres { distance, radius, edge_length } = parameters;
+    require_length("distance", distance)?;
+    require_length("radius", radius)?;
+    require(2.0 * radius < distance, "radius", radius, "less than half of the distance of the centres")?;
+    let ball = |x: f64| sphere(&Sphere { center: DVec3::new(x, 0.0, 0.0), radius, edge_length });
+    let first = ball(-0.5 * distance)?;
+    let triangles = 2 * first.triangles().len();
+    require_triangles(edge_length, triangles as f64)?;
+    let (mut soup, second) = (first.to_soup(), ball(0.5 * distance)?.to_soup());
+    let before = soup.positions.len() as u32;
+    soup.positions.extend(second.positions);
+    soup.triangles.extend(second.triangles.iter().map(|t| t.map(|v| v + before)));
     Ok(finish(soup))
 }
 

@@ -121,7 +121,10 @@ mod tests {
             result.map_err(|error| error.to_string())
         };
         assert!(write("a", 8, 1).is_ok() && write("v", 24, 3).is_ok());
-        assert_eq!(write("a", 7, 1).unwrap_err(), "array \"a\" has 7 numbers, 1 for each of 8 places are needed");
+        assert_eq!(
+            write("a", 7, 1).unwrap_err(),
+            "array \"a\" has 7 numbers, 1 for each of 8 places are needed"
+        );
         assert!(write("a", 0, 0).is_err() && write("a", 8, usize::MAX).is_err());
         assert_eq!(write("", 8, 1).unwrap_err(), "the array name \"\" is empty");
         assert_eq!(write("a\n", 8, 1).unwrap_err(), "the array name \"a\\n\" has a control character");

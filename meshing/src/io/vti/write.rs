@@ -19,7 +19,7 @@ pub(super) fn write(
 ) -> io::Result<()> {
     let extent = grid.cells().map(|n| format!("0 {n}")).join(" ");
     let origin = grid.origin().map(|c| Decimal(c).to_string()).join(" ");
-    let spacing = [Decimal(grid.spacing()).to_string(); 1].repeat(3).join(" ");
+    let spacing = [grid.spacing(); 3].map(|h| Decimal(h).to_string()).join(" ");
     writeln!(output, r#"<?xml version="1.0"?>"#)?;
     writeln!(
         output,
