@@ -1,6 +1,6 @@
 //! The command line: global options and the list of commands.
 
-use crate::commands::{ccd, check, completions, convert, demo, doctor, info, render, shape};
+use crate::commands::{ccd, check, completions, convert, demo, doctor, info, isosurface, render, shape};
 use crate::progress::ProgressMode;
 use clap::{Parser, Subcommand, value_parser};
 
@@ -15,9 +15,9 @@ pub(crate) struct Cli {
 }
 
 const AFTER: &str = "\
-Exit codes: 0 ok, 1 own bug, 2 usage, 3 bad geometry, 4 unreadable or unsupported file, 6 would pass the
-memory limit, 7 output cannot be written, 9 verification failed, 130 interrupted. `welter doctor --codes`
-lists every error code.
+Exit codes: 0 ok, 1 own bug, 2 usage, 3 bad geometry, 4 unreadable or unsupported file, 5 bad scene, 6 would
+pass the memory limit, 7 output cannot be written, 9 verification failed, 130 interrupted.
+`welter doctor --codes` lists every error code.
 
 First steps:
   welter demo                       a self-intersecting surface, checked exactly, with a picture
@@ -56,6 +56,7 @@ pub(crate) struct Global {
 pub(crate) enum Command {
     Demo(demo::Args),
     Shape(shape::Args),
+    Isosurface(isosurface::Args),
     Check(check::Args),
     Ccd(ccd::Args),
     Convert(convert::Args),

@@ -95,6 +95,17 @@ codes! {
     NotRepresentable = "W4012", 4, "coordinate that is no f64",
         "with a rounded coordinate the query is another one, whose answer may differ";
 
+    SceneSyntax = "W5001", 5, "scene not understood", "a scene is read whole or not at all";
+    UnknownKey = "W5002", 5, "unknown key in a scene",
+        "a key that is passed over would silently not do what it was written for";
+    MissingKey = "W5003", 5, "key missing in a scene", "there is no value that would be right for every scene";
+    BadValue = "W5004", 5, "value out of range in a scene", "no surface or motion has such a parameter";
+    NoBounds = "W5005", 5, "no bounds known", "a field can only be sampled within a box";
+    GridRefused = "W5006", 5, "no such grid", "the nodes of a grid must have exact coordinates that can be numbered";
+    UndefinedField = "W5007", 5, "field not a number", "a point where the field is no number is neither inside nor outside";
+    EmptySurface = "W5008", 5, "no surface within the grid",
+        "a surface passes only where the field is below the level at one node and not at its neighbour";
+
     OverMemory = "W6001", 6, "would pass the memory limit",
         "going on would end in swapping or in the system killing the process";
     OverCount = "W6002", 6, "more elements than can be numbered", "vertices and triangles are numbered with 32 bits";

@@ -6,7 +6,7 @@
 //! What it does not promise: the wording of text for people.
 //!
 //! Map: [`args`] is the command line, [`commands`] has one file a command; [`input`] and [`output`] own files,
-//! [`console`] and [`progress`] own the terminal, [`failure`] and [`bug`] tell what went wrong; [`render`] draws.
+//! [`scene`] reads scene files; [`console`] and [`progress`] own the terminal, [`failure`] and [`bug`] tell what went wrong; [`render`] draws.
 
 #![forbid(unsafe_code)]
 
@@ -27,6 +27,7 @@ mod picture;
 mod progress;
 mod render;
 mod run;
+mod scene;
 mod sequence;
 mod surface_file;
 mod table;

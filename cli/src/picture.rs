@@ -66,7 +66,7 @@ pub(crate) fn parse_size(text: &str) -> Result<[u32; 2], String> {
     sides.ok_or_else(|| format!("width and height of 1 to {MAX_SIDE} pixels are wanted, such as 1200x900"))
 }
 
-fn parse_cut(text: &str) -> Result<Cut, String> {
+pub(crate) fn parse_cut(text: &str) -> Result<Cut, String> {
     let cut = text.split_once('=').and_then(|(axis, value)| {
         let axis = ["x", "y", "z"].iter().position(|name| *name == axis)?;
         Some(Cut { axis, value: value.parse().ok().filter(|value: &f64| value.is_finite())? })

@@ -7,5 +7,6 @@ pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod doctor;
 pub(crate) mod info;
+pub(crate) mod isosurface;
 pub(crate) mod render;
 pub(crate) mod shape;

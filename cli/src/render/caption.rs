@@ -5,6 +5,7 @@
 use super::color::Rgb;
 use super::image::Image;
 use super::scene::Caption;
+use std::ops::Range;
 use welter_meshing::field::text::{CAPITAL, GAP, glyph};
 
 /// Height of capitals in the title and in the lines, as shares of the shorter side of the picture, and at least in pixels.
@@ -108,6 +109,33 @@ impl<'a> Layout<'a> {
 
 /// A polyline of a pen of this radius.
 fn stroke(image: &mut Image, points: &[[f32; 2]], radius: f32, color: Rgb) {
+    let (columns, rows) = pixels_near(points, radius, [image.width, image.height]);
+    for y in rows {
+        for x in columns.clone() {
+            let p = [x as f32 + 0.5, y as f32 + 0.5];
+            let squared = points.windows(2).map(|s| to_segment(p, s[0], s[1])).fold(f32::INFINITY, f32::min);
+            let cover = ink(squared, radius);
+            if cover > 0.0 {
+                blend(image, x, y, color, cover);
+            }
+        }
+    }
+}
+
+/// Raises the share of ink of each pixel, row by row, to what a segment drawn by a pen of this radius gives it.
+pub(super) fn cover_segment(cover: &mut [f32], size: [u32; 2], a: [f32; 2], b: [f32; 2], radius: f32) {
+    let (columns, rows) = pixels_near(&[a, b], radius, size);
+    for y in rows {
+        for x in columns.clone() {
+            let share = ink(to_segment([x as f32 + 0.5, y as f32 + 0.5], a, b), radius);
+            let pixel = &mut cover[y * size[0] as usize + x];
+            *pixel = pixel.max(share);
+        }
+    }
+}
+
+/// The columns and rows that a pen of this radius may touch.
+fn pixels_near(points: &[[f32; 2]], radius: f32, size: [u32; 2]) -> (Range<usize>, Range<usize>) {
     let reach = radius + 1.0;
     let bound = |axis: usize, most: u32| {
         let values = points.iter().map(|p| p[axis]);
@@ -115,17 +143,12 @@ fn stroke(image: &mut Image, points: &[[f32; 2]], radius: f32, color: Rgb) {
         let high = values.fold(f32::NEG_INFINITY, f32::max) + reach;
         (low.max(0.0) as usize)..((high.max(0.0) as usize + 1).min(most as usize))
     };
-    let (columns, rows) = (bound(0, image.width), bound(1, image.height));
-    for y in rows {
-        for x in columns.clone() {
-            let p = [x as f32 + 0.5, y as f32 + 0.5];
-            let squared = points.windows(2).map(|s| to_segment(p, s[0], s[1])).fold(f32::INFINITY, f32::min);
-            let cover = (radius + 0.5 - squared.sqrt()).clamp(0.0, 1.0) * (2.0 * radius).min(1.0);
-            if cover > 0.0 {
-                blend(image, x, y, color, cover);
-            }
-        }
-    }
+    (bound(0, size[0]), bound(1, size[1]))
+}
+
+/// The share of ink at a squared distance from the middle of a stroke.
+fn ink(squared: f32, radius: f32) -> f32 {
+    (radius + 0.5 - squared.sqrt()).clamp(0.0, 1.0) * (2.0 * radius).min(1.0)
 }
 
 /// Squared distance of a point to a segment.

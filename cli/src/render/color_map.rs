@@ -18,7 +18,6 @@ pub(crate) enum ColorMap {
     #[default]
     Sequential,
     /// Blue over near-white to orange: for values around a middle.
-    #[allow(dead_code)] // for the commands that compute fields
     Diverging,
 }
 

@@ -25,6 +25,7 @@ mod raster;
 mod scene;
 mod screen;
 mod shade;
+mod slice;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -39,3 +40,4 @@ pub(crate) use scene::{Background, Field};
 pub(crate) use scene::{
     Camera, Caption, Cut, Edges, Layer, MAX_SIDE, Paint, RenderError, Scene, Shading, Style, Up,
 };
+pub(crate) use slice::{Slice, slice};
