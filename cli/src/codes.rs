@@ -60,6 +60,8 @@ codes! {
         "with --json standard output holds exactly one JSON object";
     UnknownQueryKind = "W2007", 2, "kind of the queries unknown",
         "the rows of an edge-edge query and of a vertex-face query look the same";
+    TextNotDrawn = "W2008", 2, "text that cannot be drawn",
+        "a surface needs at least one visible character, and time and memory for the last";
 
     IndexOutOfRange = "W3010", 3, "vertex index out of range",
         "a corner that does not exist has no position";

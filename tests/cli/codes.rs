@@ -3,7 +3,7 @@
 use crate::harness::Bench;
 
 /// Every source file of these tests: where codes are tried.
-const TESTS: [&str; 11] = [
+const TESTS: [&str; 12] = [
     include_str!("bad_input.rs"),
     include_str!("ccd.rs"),
     include_str!("check.rs"),
@@ -11,6 +11,7 @@ const TESTS: [&str; 11] = [
     include_str!("demo.rs"),
     include_str!("doctor.rs"),
     include_str!("interrupt.rs"),
+    include_str!("isosurface.rs"),
     include_str!("outputs.rs"),
     include_str!("render.rs"),
     include_str!("shape.rs"),

@@ -13,6 +13,7 @@ mod doctor;
 mod harness;
 mod info;
 mod interrupt;
+mod isosurface;
 mod outputs;
 mod render;
 mod shape;

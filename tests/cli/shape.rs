@@ -70,3 +70,19 @@ fn standard_output_cannot_take_both_the_shape_and_the_object() {
     assert_eq!(ran.exit, Some(2));
     assert!(ran.err.contains("error[W2006]"), "{}", ran.err);
 }
+
+#[test]
+fn words_become_a_surface() {
+    let bench = Bench::new();
+    let args = ["shape", "text", "--text", "Hi\nyou", "--size", "0.1", "-o", "a.ply"];
+    bench.run_args(&args).ok();
+    let (object, _) = bench.json("check a.ply");
+    let file = &object["files"][0];
+    // H, the two parts of i, and the three letters below.
+    assert_eq!((file["components"].as_u64(), file["closed"].as_bool()), (Some(6), Some(true)), "{file:#}");
+    bench.fails("shape torus --text a -o b.ply", "W2001", 2);
+    let blank = ["shape", "text", "--text", " ", "-o", "b.ply"];
+    let ran = bench.run_args(&blank);
+    assert_eq!(ran.exit, Some(2));
+    assert!(ran.err.contains("error[W2008]: text: the text has no visible character"), "{}", ran.err);
+}

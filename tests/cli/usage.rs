@@ -18,14 +18,27 @@ fn help_names_every_command_and_no_other() {
         .take_while(|line| !line.is_empty())
         .filter_map(|line| line.split_whitespace().next())
         .collect();
-    let expected =
-        ["demo", "shape", "check", "ccd", "convert", "info", "render", "doctor", "completions", "help"];
+    let expected = [
+        "demo",
+        "shape",
+        "isosurface",
+        "check",
+        "ccd",
+        "convert",
+        "info",
+        "render",
+        "doctor",
+        "completions",
+        "help",
+    ];
     assert_eq!(commands, expected);
 }
 
 #[test]
 fn every_command_has_help() {
-    for command in ["demo", "shape", "check", "ccd", "convert", "info", "render", "doctor", "completions"] {
+    for command in
+        ["demo", "shape", "isosurface", "check", "ccd", "convert", "info", "render", "doctor", "completions"]
+    {
         let ran = Bench::new().run(&format!("{command} --help")).ok();
         assert!(ran.out.contains(&format!("Usage: welter {command}")), "{}", ran.out);
         assert!(ran.out.contains("--json"), "{}", ran.out);

@@ -57,11 +57,9 @@ fn sizes_are_edge_lengths() {
             let (name, ratio) = (shape.name, lengths.mean / size);
             assert!((0.6..=1.25).contains(&ratio), "{name}: mean edge {} for {size}", lengths.mean);
             // The diagonals outside the tightest bend, of the figure eight: sqrt(1 + (1 + 0.25 / 0.313)^2) = 2.06.
-            // Marching cubes: the diagonal of a cube of 1.4 edges; angles of any size where the surface passes by a node.
-            let of_field = ["gyroid", "text"].contains(&name);
-            let longest = if of_field { 1.4 * 3.0_f64.sqrt() } else { 2.1 };
-            assert!(lengths.max <= longest * size, "{name}: longest edge {} for {size}", lengths.max);
-            if of_field {
+            assert!(lengths.max <= 2.1 * size, "{name}: longest edge {} for {size}", lengths.max);
+            // Marching cubes make angles of any size, where the surface passes by a node.
+            if ["gyroid", "text"].contains(&name) {
                 continue;
             }
             let angles = angle_statistics(&mesh).unwrap();

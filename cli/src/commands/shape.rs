@@ -11,12 +11,15 @@ use crate::surface_file::{Writing, refuse_standard_output_with_json, write_surfa
 use serde_json::json;
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use welter_meshing::shapes::{NAMES, ShapeError, by_name};
+use welter_meshing::shapes::{NAMES, ShapeError, TextSurface, by_name, text_surface};
 use welter_meshing::surface::ClosedOrientedMesh;
 
 /// Write a built-in surface (`--list` names them)
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example: welter shape ring-overlap -o ring.ply --size 0.05")]
+#[command(after_help = "\
+Examples:
+  welter shape ring-overlap -o ring.ply --size 0.05
+  welter shape text --text welter -o sign.stl")]
 pub(crate) struct Args {
     /// Which surface
     #[arg(required_unless_present = "list")]
@@ -27,6 +30,9 @@ pub(crate) struct Args {
     /// Edge length of the triangles, absolute [default: 5,000 to 20,000 triangles]
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     size: Option<f64>,
+    /// What the surface `text` says; lines are separated by a line end [default: curl]
+    #[arg(long, value_name = "WORDS")]
+    text: Option<String>,
     /// File to write (obj, ply, stl, off), not overwritten without --force; `-` is standard output
     #[arg(short, long, value_name = "OUT", required_unless_present = "list")]
     output: Option<PathBuf>,
@@ -47,7 +53,10 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     let format = writing.format()?;
     let file = Output::prepare(output, run.force, &[])?;
     let mut seconds = Seconds::default();
-    let mesh = run.console.stage(&mut seconds, "building", || build(name, args.size))?;
+    let mesh = run.console.stage(&mut seconds, "building", || match &args.text {
+        Some(words) => build_text(name, words, args.size),
+        None => build(name, args.size),
+    })?;
     let dropped = run
         .console
         .stage(&mut seconds, "writing", || write_surface(file, format, mesh.as_mesh(), &writing.options()))?;
@@ -74,7 +83,26 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
 
 /// A built-in surface by name.
 pub(crate) fn build(name: &str, size: Option<f64>) -> Result<ClosedOrientedMesh, Box<Failure>> {
-    by_name(name, size).map_err(|error| match &error {
+    by_name(name, size).map_err(|error| refused(name, &error))
+}
+
+/// The surface `text` with these words.
+fn build_text(name: &str, words: &str, size: Option<f64>) -> Result<ClosedOrientedMesh, Box<Failure>> {
+    if name != "text" {
+        return Err(Failure::new(Code::Usage, format!("--text is for the surface `text`, not for `{name}`"))
+            .help("welter shape text --text WORDS -o words.ply"));
+    }
+    let mut parameters = TextSurface::default();
+    words.clone_into(&mut parameters.shape.words);
+    parameters.edge_length = size.unwrap_or(parameters.edge_length);
+    text_surface(&parameters).map_err(|error| refused(name, &error))
+}
+
+fn refused(name: &str, error: &ShapeError) -> Box<Failure> {
+    match error {
+        ShapeError::Field(_) => Failure::new(Code::TextNotDrawn, error.to_string())
+            .subject(name)
+            .help("welter shape text --text welter -o text.ply"),
         ShapeError::UnknownName { nearest, .. } => Failure::new(Code::UnknownShape, error.to_string()).help(
             nearest.map_or("welter shape --list".to_owned(), |nearest| {
                 format!("welter shape {nearest} -o {nearest}.ply")
@@ -83,7 +111,7 @@ pub(crate) fn build(name: &str, size: Option<f64>) -> Result<ClosedOrientedMesh,
         _ => Failure::new(Code::SizeOutOfRange, error.to_string())
             .subject(name)
             .help(format!("welter shape {name} -o {name}.ply   # its default size")),
-    })
+    }
 }
 
 fn list(run: &Run) -> Outcome {

@@ -10,7 +10,7 @@ use crate::shapes::{MAX_LENGTH, MIN_LENGTH};
 #[non_exhaustive]
 pub enum FieldError {
     /// A parameter is outside its range.
-    #[error("{parameter} is {value}, must be {range}")]
+    #[error("{parameter} is {value:?}, must be {range}")]
     Parameter {
         /// Its field name.
         parameter: &'static str,

@@ -1,7 +1,7 @@
 //! Shapes that are surfaces of fields: [`gyroid_ball`], [`text_surface`].
 //!
-//! Method: marching cubes with vertices on the field, on cubes a little larger than the edge length: the mean edge of marching cubes
-//! is about 0.7 of the side of a cube. Where the shape has features smaller than a few edges, the cubes are chosen to resolve them.
+//! Method: marching cubes with vertices on the field, on cubes about as large as the edge length, which is near the mean edge of
+//! marching cubes. Where the shape has features smaller than a few edges, the cubes are chosen to resolve them.
 //!
 //! Does not promise: well-shaped triangles.
 
@@ -12,8 +12,9 @@ use crate::grid::{Grid3, Samples};
 use crate::isosurface::{MarchingCubes, marching_cubes};
 use crate::surface::ClosedOrientedMesh;
 
-/// Side of the cubes over the edge length: about the inverse of the mean edge of marching cubes on a side of one.
-const CUBE_PER_EDGE: f64 = 1.4;
+/// Side of the cubes over the edge length: the inverse of the mean edge of marching cubes on cubes of side one, measured on the two
+/// shapes here at several sizes.
+const CUBE_PER_EDGE: f64 = 1.05;
 
 /// Parameters of [`gyroid_ball`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,13 +25,13 @@ pub struct GyroidBall {
     pub period: f64,
     /// Width of the blend between the gyroid and the ball, at most a quarter of the period. Default: 0.1.
     pub blend_width: f64,
-    /// Mean edge wanted; edges are at most a fifteenth of the period all the same. Default: 0.04.
+    /// Mean edge wanted; edges are at most a fifteenth of the period all the same. Default: 0.055.
     pub edge_length: f64,
 }
 
 impl Default for GyroidBall {
     fn default() -> Self {
-        Self { radius: 1.0, period: 1.0, blend_width: 0.1, edge_length: 0.04 }
+        Self { radius: 1.0, period: 1.0, blend_width: 0.1, edge_length: 0.055 }
     }
 }
 
@@ -66,7 +67,7 @@ pub struct TextSurface {
     /// Words, pen and depth. Default: `curl`, four characters without holes, with capitals of height 2, a pen of radius 0.15 and rounded
     /// ends, 0.5 deep.
     pub shape: TextShape,
-    /// Mean edge wanted; edges are at most half of the radius of the pen all the same. Default: 0.05.
+    /// Mean edge wanted; edges are at most half of the radius of the pen all the same. Default: 0.065.
     pub edge_length: f64,
 }
 
@@ -74,7 +75,7 @@ impl Default for TextSurface {
     fn default() -> Self {
         let words = "curl".to_owned();
         let shape = TextShape { words, height: 2.0, pen_radius: 0.15, depth: 0.5, caps: Caps::Rounded };
-        Self { shape, edge_length: 0.05 }
+        Self { shape, edge_length: 0.065 }
     }
 }
 

@@ -75,7 +75,10 @@ impl<'m> Builder<'m> {
             }};
         }
         match kind {
-            "ball" => checked!(Ball { center: s.vector("center", DVec3::ZERO)?, radius: s.required("radius")?.number()? }),
+            "ball" => checked!(Ball {
+                center: s.vector("center", DVec3::ZERO)?,
+                radius: s.required("radius")?.number()?
+            }),
             "box" => checked!(Cuboid {
                 min: s.required("min")?.vector()?,
                 max: s.required("max")?.vector()?,
@@ -103,17 +106,27 @@ impl<'m> Builder<'m> {
             }),
             "text" => text(s),
             "mesh" => self.mesh(s),
-            "union" => checked!(Union { parts: self.parts(s, depth)?, blend_width: s.number("blend_width", 0.0)? }),
+            "union" => {
+                checked!(Union { parts: self.parts(s, depth)?, blend_width: s.number("blend_width", 0.0)? })
+            }
             "intersection" => {
-                checked!(Intersection { parts: self.parts(s, depth)?, blend_width: s.number("blend_width", 0.0)? })
+                checked!(Intersection {
+                    parts: self.parts(s, depth)?,
+                    blend_width: s.number("blend_width", 0.0)?
+                })
             }
             "difference" => checked!(Difference {
                 from: self.node(&s.required("from")?, depth + 1)?,
                 removed: self.node(&s.required("removed")?, depth + 1)?,
                 blend_width: s.number("blend_width", 0.0)?,
             }),
-            "offset" => checked!(Offset { field: self.inner(s, depth)?, distance: s.required("distance")?.number()? }),
-            "shell" => checked!(Shell { field: self.inner(s, depth)?, thickness: s.required("thickness")?.number()? }),
+            "offset" => {
+                checked!(Offset { field: self.inner(s, depth)?, distance: s.required("distance")?.number()? })
+            }
+            "shell" => checked!(Shell {
+                field: self.inner(s, depth)?,
+                thickness: s.required("thickness")?.number()?
+            }),
             "complement" => Ok(AnyField::new(Complement { field: self.inner(s, depth)? })),
             "affine" => {
                 let rows = s.required("matrix")?.vectors::<3>("an array of three rows of three numbers")?;
@@ -144,8 +157,7 @@ impl<'m> Builder<'m> {
 
     fn mesh(&mut self, s: &Section<'_>) -> Result<AnyField<'m>, Box<Failure>> {
         let file = PathBuf::from(s.required("file")?.text()?);
-        let inside =
-            [("positive", Inside::Positive), ("nonzero", Inside::NonZero), ("odd", Inside::Odd)];
+        let inside = [("positive", Inside::Positive), ("nonzero", Inside::NonZero), ("odd", Inside::Odd)];
         let inside = s.choice("inside", &inside)?;
         let Some(meshes) = self.meshes else {
             self.files.push(file);

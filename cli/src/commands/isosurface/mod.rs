@@ -122,7 +122,8 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
         "cells": grid.cell_count(),
     });
     if let Some((output, cut)) = outputs.picture {
-        let drawn = console.stage(&mut seconds, "slice", || draw_slice(args, &scene, &spec, &grid, &field, cut));
+        let drawn =
+            console.stage(&mut seconds, "slice", || draw_slice(args, &scene, &spec, &grid, &field, cut));
         let (image, step) = drawn?;
         picture::write_png(&image, output)?;
         object["contour_step"] = json!(step);
@@ -142,11 +143,13 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
         numbers::number(grid.spacing())
     );
     if let Some((output, format)) = outputs.surface {
-        let mesh = console.stage(&mut seconds, "surface", || surface(&scene, &spec, &samples, &field, &monitor))?;
+        let mesh =
+            console.stage(&mut seconds, "surface", || surface(&scene, &spec, &samples, &field, &monitor))?;
         drop(samples);
         let facts = console.stage(&mut seconds, "measuring", || facts(&mesh, spec.wall));
-        let dropped = console
-            .stage(&mut seconds, "writing", || write_surface(output, format, &mesh, &args.writing.options()))?;
+        let dropped = console.stage(&mut seconds, "writing", || {
+            write_surface(output, format, &mesh, &args.writing.options())
+        })?;
         for loss in &dropped {
             console.note(&format!("{}: {loss}", args.writing.output.display()));
         }
@@ -267,7 +270,9 @@ fn undefined(scene: &Scene, error: &IsosurfaceError) -> Box<Failure> {
         Failure::new(code, error.to_string()).subject(scene.name.display().to_string()).help(help)
     };
     match error {
-        IsosurfaceError::NotANumber(_) => failure(Code::UndefinedField, "take a smaller box, or smaller parameters"),
+        IsosurfaceError::NotANumber(_) => {
+            failure(Code::UndefinedField, "take a smaller box, or smaller parameters")
+        }
         IsosurfaceError::TooFine { .. } => failure(Code::GridRefused, "move the grid nearer to the origin"),
         IsosurfaceError::TooMany { .. } => failure(Code::OverCount, "take fewer cells or a larger spacing"),
         IsosurfaceError::Cancelled(_) => failure(Code::Interrupted, "run the same command again"),
@@ -285,7 +290,9 @@ fn surface(
     let roots_of = (spec.crossing == Crossing::Root).then_some(field as &dyn ScalarField);
     let marching = MarchingCubes { level: spec.level, roots_of, ..MarchingCubes::default() };
     let mesh = match spec.wall {
-        Wall::Cap => marching_cubes(samples, &marching, monitor).map(|m| m.into_closed_oriented().into_mesh()),
+        Wall::Cap => {
+            marching_cubes(samples, &marching, monitor).map(|m| m.into_closed_oriented().into_mesh())
+        }
         Wall::Open => marching_cubes_open(samples, &marching, monitor),
     };
     let mesh = mesh.map_err(|error| undefined(scene, &error))?;
@@ -294,10 +301,13 @@ fn surface(
             .values()
             .iter()
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
-        return Err(Failure::new(Code::EmptySurface, format!("the field does not cross {} in the grid", spec.level))
-            .subject(scene.name.display().to_string())
-            .place(format!("samples from {} to {}", numbers::number(least), numbers::number(greatest)))
-            .help("take another level or box, or more cells: features smaller than a cell are not seen"));
+        return Err(Failure::new(
+            Code::EmptySurface,
+            format!("the field does not cross {} in the grid", spec.level),
+        )
+        .subject(scene.name.display().to_string())
+        .place(format!("samples from {} to {}", numbers::number(least), numbers::number(greatest)))
+        .help("take another level or box, or more cells: features smaller than a cell are not seen"));
     }
     Ok(mesh)
 }
@@ -351,8 +361,9 @@ fn draw_slice(
     let plane = |corner: [f64; 3]| [corner[right], corner[up]];
     let (min, max) = (plane(grid.origin()), plane(grid.max()));
     let spacing = (max[0] - min[0]).max(max[1] - min[1]) / SLICE_NODES;
-    let plane = Grid2::covering(min, max, spacing, 0)
-        .map_err(|error| Failure::new(Code::GridRefused, error.to_string()).subject(scene.name.display().to_string()))?;
+    let plane = Grid2::covering(min, max, spacing, 0).map_err(|error| {
+        Failure::new(Code::GridRefused, error.to_string()).subject(scene.name.display().to_string())
+    })?;
     let value = |node: usize| {
         let p = plane.position(plane.node_at(node));
         let mut point = DVec3::splat(cut.value);

@@ -116,7 +116,9 @@ impl Spec {
         Grid3::covering(around.min.to_array(), around.max.to_array(), spacing, margin).map_err(|error| {
             let fault = scene.fault(Code::GridRefused, &self.grid_span, error.to_string());
             match error {
-                GridError::Nodes { .. } | GridError::Cells { .. } => fault.help("take a larger spacing, or fewer cells"),
+                GridError::Nodes { .. } | GridError::Cells { .. } => {
+                    fault.help("take a larger spacing, or fewer cells")
+                }
                 GridError::Inverted { .. } => fault.help("bounds = [[least x, y, z], [greatest x, y, z]]"),
                 _ => fault.help("take a box nearer to the origin, or a larger spacing"),
             }
