@@ -56,7 +56,7 @@ impl Cuboid {
     }
 
     /// The point relative to the core's nearest corner, and the signs of the octant.
-    fn from_core(&self, point: DVec3) -> (DVec3, DVec3) {
+    fn relative_to_core(&self, point: DVec3) -> (DVec3, DVec3) {
         let (center, half) = (0.5 * (self.min + self.max), 0.5 * (self.max - self.min));
         let from_center = point - center;
         let signs = from_center.map(|c| if c < 0.0 { -1.0 } else { 1.0 });
@@ -66,7 +66,7 @@ impl Cuboid {
 
 impl ScalarField for Cuboid {
     fn value(&self, point: DVec3) -> f64 {
-        let (q, _) = self.from_core(point);
+        let (q, _) = self.relative_to_core(point);
         if q.is_nan() {
             return f64::NAN;
         }
@@ -74,7 +74,7 @@ impl ScalarField for Cuboid {
     }
 
     fn gradient(&self, point: DVec3, _step: f64) -> DVec3 {
-        let (q, signs) = self.from_core(point);
+        let (q, signs) = self.relative_to_core(point);
         let outside = q.max(DVec3::ZERO);
         if outside != DVec3::ZERO {
             return signs * outside / outside.length();

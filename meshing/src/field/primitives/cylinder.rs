@@ -48,7 +48,7 @@ impl Cylinder {
     }
 
     /// The point relative to the edge of the rectangle (away from the axis, along it), and the two directions.
-    fn from_edge(&self, point: DVec3) -> ([f64; 2], [DVec3; 2]) {
+    fn relative_to_edge(&self, point: DVec3) -> ([f64; 2], [DVec3; 2]) {
         let [a, b] = self.ends;
         let axis = direction(b - a, DVec3::Z);
         let from_center = point - 0.5 * (a + b);
@@ -62,7 +62,7 @@ impl Cylinder {
 
 impl ScalarField for Cylinder {
     fn value(&self, point: DVec3) -> f64 {
-        let ([across, along], _) = self.from_edge(point);
+        let ([across, along], _) = self.relative_to_edge(point);
         if across.is_nan() || along.is_nan() {
             return f64::NAN;
         }
@@ -71,7 +71,7 @@ impl ScalarField for Cylinder {
     }
 
     fn gradient(&self, point: DVec3, _step: f64) -> DVec3 {
-        let ([across, along], [outward, axis]) = self.from_edge(point);
+        let ([across, along], [outward, axis]) = self.relative_to_edge(point);
         let inside = if across >= along { outward } else { axis };
         direction(across.max(0.0) * outward + along.max(0.0) * axis, inside)
     }

@@ -86,23 +86,24 @@ impl Capsule {
         require_length("radius", self.radius)
     }
 
-    fn from_segment(&self, point: DVec3) -> DVec3 {
+    fn relative_to_segment(&self, point: DVec3) -> DVec3 {
         let [a, b] = self.ends;
         let along = b - a;
         let parameter = (point - a).dot(along) / along.length_squared();
-        // NaN, for a segment of no length, becomes 0.
-        point - (a + along * parameter.max(0.0).min(1.0))
+        // NaN, for a segment of no length, counts as 0.
+        let parameter = if parameter > 0.0 { parameter.min(1.0) } else { 0.0 };
+        point - (a + along * parameter)
     }
 }
 
 impl ScalarField for Capsule {
     fn value(&self, point: DVec3) -> f64 {
-        self.from_segment(point).length() - self.radius
+        self.relative_to_segment(point).length() - self.radius
     }
 
     fn gradient(&self, point: DVec3, _step: f64) -> DVec3 {
         let across = direction(self.ends[1] - self.ends[0], DVec3::Z).any_orthonormal_vector();
-        direction(self.from_segment(point), across)
+        direction(self.relative_to_segment(point), across)
     }
 
     fn sublevel_bounds(&self, level: f64) -> Option<Box3> {
@@ -145,7 +146,7 @@ impl Torus {
     }
 
     /// The point relative to the nearest point of the middle circle, and the direction away from the axis.
-    fn from_circle(&self, point: DVec3) -> (DVec3, DVec3) {
+    fn relative_to_circle(&self, point: DVec3) -> (DVec3, DVec3) {
         let axis = direction(self.axis, DVec3::Z);
         let from_center = point - self.center;
         let height = from_center.dot(axis);
@@ -157,11 +158,11 @@ impl Torus {
 
 impl ScalarField for Torus {
     fn value(&self, point: DVec3) -> f64 {
-        self.from_circle(point).0.length() - self.tube_radius
+        self.relative_to_circle(point).0.length() - self.tube_radius
     }
 
     fn gradient(&self, point: DVec3, _step: f64) -> DVec3 {
-        let (from_circle, outward) = self.from_circle(point);
+        let (from_circle, outward) = self.relative_to_circle(point);
         direction(from_circle, outward)
     }
 

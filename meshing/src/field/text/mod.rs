@@ -155,7 +155,7 @@ impl Text {
     }
 
     /// The vector from the nearest point of the strokes, in the plane; of points at the same distance the first's.
-    fn from_strokes(&self, point: DVec2) -> DVec2 {
+    fn relative_to_strokes(&self, point: DVec2) -> DVec2 {
         let (mut nearest, mut squared) = (DVec2::NAN, f64::INFINITY);
         for stroke in &self.strokes {
             let beside = (stroke.min - point).max(point - stroke.max).max(DVec2::ZERO);
@@ -165,7 +165,9 @@ impl Text {
             for ends in stroke.points.windows(2) {
                 let along = ends[1] - ends[0];
                 let parameter = (point - ends[0]).dot(along) / along.length_squared();
-                let from = point - (ends[0] + along * parameter.max(0.0).min(1.0));
+                // NaN, for a segment of no length, counts as 0.
+                let parameter = if parameter > 0.0 { parameter.min(1.0) } else { 0.0 };
+                let from = point - (ends[0] + along * parameter);
                 if from.length_squared() < squared {
                     (nearest, squared) = (from, from.length_squared());
                 }
@@ -177,7 +179,7 @@ impl Text {
 
 impl ScalarField for Text {
     fn value(&self, point: DVec3) -> f64 {
-        let across = self.from_strokes(point.truncate()).length();
+        let across = self.relative_to_strokes(point.truncate()).length();
         let along = point.z.abs() - self.half_depth;
         if across.is_nan() || along.is_nan() {
             return f64::NAN;
@@ -196,7 +198,7 @@ impl ScalarField for Text {
     }
 
     fn gradient(&self, point: DVec3, _step: f64) -> DVec3 {
-        let from = self.from_strokes(point.truncate());
+        let from = self.relative_to_strokes(point.truncate());
         let outward = direction(from.extend(0.0), DVec3::Y);
         let up = if point.z < 0.0 { DVec3::NEG_Z } else { DVec3::Z };
         let along = point.z.abs() - self.half_depth;
