@@ -1,4 +1,4 @@
-//! Pictures of numbers in a plane: a colour map with contour lines, [`slice`].
+//! Pictures of numbers in a plane: a colour map with contour lines, [`Slice`].
 //!
 //! Each pixel has the colour of the interpolated number at its middle; blue is below the level and orange above, as far from white as the
 //! number is from the level. Contour lines by marching squares at multiples of a round step, that of the level itself thick.

@@ -64,13 +64,13 @@ fn other_fields() -> Vec<(&'static str, AnyField<'static>)> {
         ("offset", AnyField::new(Offset { field: egg(), distance: 0.2 })),
         ("shell", AnyField::new(Shell { field: egg(), thickness: 0.1 })),
         ("complement", AnyField::new(Complement { field: egg() })),
-        ("affine", AnyField::new(Affine::new(egg(), matrix, a).unwrap())),
+        ("affine", AnyField::new(Affine::new(egg(), matrix, a).expect("valid parameters"))),
         ("gyroid", AnyField::new(Gyroid { period: 1.7, thickness: 0.0 })),
         ("gyroid sheet", AnyField::new(Gyroid { period: 1.7, thickness: 0.2 })),
         ("noise", AnyField::new(noise)),
         ("displaced", AnyField::new(Displaced { field: egg(), noise, amplitude: 0.3 })),
-        ("text", AnyField::new(Text::new(&text).unwrap())),
-        ("rounded text", AnyField::new(Text::new(&tube).unwrap())),
+        ("text", AnyField::new(Text::new(&text).expect("valid parameters"))),
+        ("rounded text", AnyField::new(Text::new(&tube).expect("valid parameters"))),
     ]
 }
 
@@ -350,7 +350,7 @@ fn rotations_turn_and_multiples_of_right_angles_are_exact() {
 
 #[test]
 fn the_distance_to_a_mesh_of_a_sphere_is_that_of_its_triangles() {
-    let mesh = sphere(&Sphere { edge_length: 0.2, ..Sphere::default() }).unwrap();
+    let mesh = sphere(&Sphere { edge_length: 0.2, ..Sphere::default() }).expect("valid parameters");
     let (field, ball) = (MeshDistance::new(&mesh, Inside::default()), Ball::default());
     let mut random = Random(13);
     for _ in 0..300 {
@@ -370,7 +370,7 @@ fn the_distance_to_a_mesh_of_a_sphere_is_that_of_its_triangles() {
 #[test]
 fn what_is_inside_of_overlapping_boxes_is_chosen() {
     let pair = BoxPair::overlapping();
-    let mesh = two_boxes(&pair).unwrap();
+    let mesh = two_boxes(&pair).expect("valid parameters");
     let middle = 0.5 * (pair.second[0] + pair.first[1]);
     let values = [Inside::Positive, Inside::NonZero, Inside::Odd]
         .map(|inside| MeshDistance::new(&mesh, inside).value(middle));
@@ -381,8 +381,8 @@ fn what_is_inside_of_overlapping_boxes_is_chosen() {
 fn text_is_as_high_and_deep_as_it_says() {
     for caps in [Caps::Flat, Caps::Rounded] {
         let shape = TextShape { words: "H".into(), height: 2.0, pen_radius: 0.1, depth: 0.5, caps };
-        let text = Text::new(&shape).unwrap();
-        let around = text.bounds().unwrap();
+        let text = Text::new(&shape).expect("valid parameters");
+        let around = text.bounds().expect("valid parameters");
         assert_eq!((around.min.z, around.max.z), (-0.25, 0.25));
         assert!((around.max.y - 1.1).abs() < 1e-15 && (around.min.y + 1.1).abs() < 1e-15);
         assert!((around.max.x + around.min.x).abs() < 1e-15);
