@@ -420,3 +420,34 @@ fn parameters_out_of_range_are_refused_by_name() {
         Ball::default().validate().is_ok() && cube.validate().is_ok() && Torus::default().validate().is_ok()
     );
 }
+
+/// Negation and scaling by powers of two change no bit; exchanging axes changes only the order of sums.
+#[test]
+fn distances_keep_the_symmetries_of_their_bodies() {
+    let mut random = Random(14);
+    let axes = DVec3::new(1.1, 0.3, 0.7);
+    let ends = [DVec3::NEG_Z, DVec3::Z];
+    let fields = |scale: f64| {
+        [
+            AnyField::new(Ball { center: DVec3::ZERO, radius: scale * 0.9 }),
+            AnyField::new(Ellipsoid { center: DVec3::ZERO, semi_axes: scale * axes }),
+            AnyField::new(Cuboid { min: -scale * axes, max: scale * axes, rounding: scale * 0.2 }),
+            AnyField::new(Torus { radius: scale, tube_radius: scale * 0.4, ..Torus::default() }),
+            AnyField::new(Cylinder { ends: ends.map(|e| scale * e), radius: scale * 0.5 }),
+            AnyField::new(Capsule { ends: ends.map(|e| scale * e), radius: scale * 0.5 }),
+        ]
+    };
+    let (plain, large, small) = (fields(1.0), fields(1024.0), fields(1.0 / 4096.0));
+    for _ in 0..500 {
+        let p = random.point(1.5);
+        for k in 0..plain.len() {
+            let value = plain[k].value(p);
+            assert_eq!(value.to_bits(), plain[k].value(-p).to_bits(), "field {k} at {p}");
+            assert_eq!((1024.0 * value).to_bits(), large[k].value(1024.0 * p).to_bits(), "field {k} at {p}");
+            assert_eq!((value / 4096.0).to_bits(), small[k].value(p / 4096.0).to_bits(), "field {k} at {p}");
+        }
+        let turned = Ellipsoid { center: DVec3::ZERO, semi_axes: DVec3::new(axes.z, axes.x, axes.y) };
+        let change = turned.value(DVec3::new(p.z, p.x, p.y)) - plain[1].value(p);
+        assert!(change.abs() < 4e-15, "{p}: {change}");
+    }
+}

@@ -151,3 +151,62 @@ pub(super) fn field<'m>(
     let field = builder.build(&Section::whole(scene, table).required("field")?)?;
     Ok((field, builder.files))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Everything that can be found out without files.
+    fn read(text: String) -> Result<Grid3, Box<Failure>> {
+        let scene = Scene { name: "a.toml".into(), text };
+        let table = scene.parse()?;
+        let spec = Spec::of(&scene, &table)?;
+        let (field, _) = field(&scene, &table, None)?;
+        let _ = field.value(DVec3::splat(0.1));
+        spec.grid(&scene, &field)
+    }
+
+    const SCENE: &str = "[grid]\ncells = 9\n[surface]\nlevel = 0.1\nwall = \"open\"\n[field]\nkind = \"union\"\nblend_width = 0.2\n\
+        parts = [{ kind = \"text\", words = \"a\" }, { kind = \"affine\", matrix = [[1, 0, 0], [0, 2, 0], [0, 0, 3]],\n\
+        rotate = { axis = \"x\", degrees = 30 }, field = { kind = \"displaced\", amplitude = 0.1, octaves = 3,\n\
+        field = { kind = \"torus\", radius = 2, tube_radius = 1e-1 } } }]\n";
+
+    #[test]
+    fn corrupted_scenes_are_read_or_refused() {
+        assert!(read(SCENE.to_owned()).is_ok());
+        let (mut accepted, mut refused) = (0, 0);
+        for at in 0..SCENE.len() {
+            let cut = SCENE[..at].to_owned();
+            let without = format!("{}{}", &SCENE[..at], &SCENE[at + 1..]);
+            let replaced = ["9", "-", "\"", "[", "}", "\n", "e", "\u{0}"]
+                .map(|with| format!("{}{with}{}", &SCENE[..at], &SCENE[at + 1..]));
+            for text in replaced.into_iter().chain([cut, without]) {
+                match read(text) {
+                    Ok(_) => accepted += 1,
+                    Err(failure) => {
+                        assert!(!failure.places.is_empty(), "{}", failure.what);
+                        refused += 1;
+                    }
+                }
+            }
+        }
+        assert!(accepted > 100 && refused > 1000, "{accepted} accepted, {refused} refused");
+    }
+
+    #[test]
+    fn fields_within_fields_have_an_end() {
+        let nested = |depth: usize| {
+            let open = "{ kind = \"complement\", field = ".repeat(depth);
+            let close = " }".repeat(depth);
+            format!(
+                "field = {open}{{ kind = \"ball\", radius = 1 }}{close}\n[grid]\nbounds = [[0, 0, 0], [1, 1, 1]]\n"
+            )
+        };
+        assert!(read(nested(50)).is_ok());
+        for depth in [70, 1000, 20_000] {
+            assert!(read(nested(depth)).is_err(), "{depth}");
+        }
+        let header = format!("[field{}]\nkind = \"ball\"", ".field".repeat(5000));
+        assert!(read(header).is_err());
+    }
+}
