@@ -6,7 +6,9 @@
 //! * The same bytes for the same data. Nothing is written before names and lengths are checked.
 //!
 //! # What it does not promise
-//! Reading: these files go to other programs. Compression: blocks would need a library of their own.
+//! * Reading: these files go to other programs. Compression: blocks would need a library of their own.
+//! * That VTK understands negative infinity in text: version 9.7 takes it for positive infinity, so samples with infinities need one
+//!   of the binary encodings.
 //!
 //! # Method
 //! An XML element `ImageData` with one `Piece`. Binary blocks are little-endian, after their length in bytes as a 64-bit number; they stand
