@@ -15,8 +15,8 @@ use crate::field::{FieldError, ScalarField};
 
 /// One of the two labyrinths of a gyroid, or a sheet of some thickness along it. Fills space: clip it by a body.
 ///
-/// A sheet is at least as thick as it says, and at most 1.4 times where it is thin against the period (the gradient's length on the
-/// surface lies between `sqrt(3/2)` and `sqrt 3` before the scaling). Its gradient on the middle of the sheet is that of the positive side.
+/// A sheet is at least as thick as it says, and where it is thin against the period at most 1.23 times: measured, the scaled function's
+/// gradient has lengths from `sqrt(2/3)` to 1 on the surface. The sheet's gradient in its middle is that of the positive side.
 ///
 /// ```
 /// use welter_meshing::{DVec3, field::{Ball, Gyroid, Intersection, AnyField, ScalarField}};

@@ -451,3 +451,23 @@ fn distances_keep_the_symmetries_of_their_bodies() {
         assert!(change.abs() < 4e-15, "{p}: {change}");
     }
 }
+
+#[test]
+fn on_the_gyroid_the_gradient_is_as_long_as_its_doc_says() {
+    let field = Gyroid { period: 2.0, thickness: 0.0 };
+    let mut random = Random(15);
+    let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
+    for _ in 0..5000 {
+        let mut p = random.point(1.0);
+        for _ in 0..40 {
+            let gradient = field.gradient(p, 0.0);
+            p -= 0.9 * field.value(p) * gradient / gradient.length_squared().max(1e-3);
+        }
+        assert!(field.value(p).abs() < 1e-9, "{p}");
+        let length = field.gradient(p, 0.0).length();
+        (least, greatest) = (least.min(length), greatest.max(length));
+    }
+    let bound = (2.0_f64 / 3.0).sqrt();
+    assert!(least >= bound - 1e-9 && least < bound + 0.01, "{least}");
+    assert!(greatest <= 1.0 + 1e-12 && greatest > 0.99, "{greatest}");
+}

@@ -91,6 +91,9 @@ pub(crate) struct Args {
 /// Memory for each node of the grid in bytes: the sample, and half as much for signs and the surface.
 const BYTES_A_NODE: u64 = 12;
 
+/// Memory for each pixel of the picture in bytes: its colour, and the share of ink.
+const BYTES_A_PIXEL: u64 = 7;
+
 /// Nodes along the longer side of the plane of a picture: about one for each two pixels.
 const SLICE_NODES: f64 = 500.0;
 
@@ -246,12 +249,19 @@ fn read_meshes(args: &Args, run: &Run, files: Vec<PathBuf>) -> Result<Meshes, Bo
 }
 
 fn require_memory(args: &Args, grid: &Grid3) -> Result<(), Box<Failure>> {
-    let needed = (grid.node_count() as u64).saturating_mul(BYTES_A_NODE);
+    let pixels = args.slice_picture.as_ref().map_or(0, |_| args.slice_size.map(u64::from).iter().product());
+    let nodes = (grid.node_count() as u64).saturating_mul(BYTES_A_NODE);
+    let needed = nodes.saturating_add(pixels * BYTES_A_PIXEL);
     match args.max_memory.or_else(machine::available_memory) {
         Some(free) if needed > free => {
             let what = format!(
-                "a grid of {} nodes may take {}, and {} {}",
+                "a grid of {} nodes{} may take {}, and {} {}",
                 grouped(grid.node_count() as i64),
+                if pixels > 0 {
+                    format!(" and a picture of {} pixels", grouped(pixels as i64))
+                } else {
+                    String::new()
+                },
                 numbers::bytes(needed),
                 numbers::bytes(free),
                 if args.max_memory.is_some() { "are allowed" } else { "are free" }
