@@ -94,8 +94,8 @@ const BYTES_A_NODE: u64 = 12;
 /// Memory for each pixel of the picture in bytes: its colour, and the share of ink.
 const BYTES_A_PIXEL: u64 = 7;
 
-/// Nodes along the longer side of the plane of a picture: about one for each two pixels.
-const SLICE_NODES: f64 = 500.0;
+/// Nodes along the longer side of the plane of a picture: one for each three pixels; colours and lines are interpolated between.
+const SLICE_NODES: f64 = 320.0;
 
 /// The name of the samples in a VTI file.
 const ARRAY: &str = "field";
