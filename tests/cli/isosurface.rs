@@ -39,6 +39,22 @@ fn a_ball_is_what_it_is() {
     assert_eq!(checked["files"][0]["self_intersecting_pairs"], 0);
 }
 
+#[test]
+fn triangles_can_be_made_near_equilateral() {
+    let bench = Bench::new();
+    let scene = |surface: &str| format!("{BALL}[surface]\nlevel = 0.1\n{surface}");
+    bench.file("plain.toml", scene("")).file("good.toml", scene("triangles = \"equilateral\""));
+    let (plain, _) = bench.json("isosurface plain.toml -o plain.ply");
+    let (good, ran) = bench.json("isosurface good.toml -o good.ply");
+    assert_eq!(ran.exit, Some(0), "{}", ran.err);
+    assert!(number(&plain, "smallest_angle") < 10.0 && number(&good, "smallest_angle") > 20.0, "{good:#}");
+    let volume = 4.0 / 3.0 * std::f64::consts::PI * 1.1_f64.powi(3);
+    assert!((number(&good, "volume") / volume - 1.0).abs() < 0.01, "{good:#}");
+    assert_eq!(good["euler_characteristic"], 2);
+    bench.file("open.toml", scene("triangles = \"equilateral\"\nwall = \"open\""));
+    bench.fails("isosurface open.toml -o open.ply", "W5004", 5);
+}
+
 /// Every example, its surface checked, its slice drawn, its samples written.
 #[test]
 fn the_examples_that_are_shipped_work() {

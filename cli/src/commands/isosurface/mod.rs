@@ -19,14 +19,15 @@ use crate::surface_file::{Writing, refuse_standard_output_with_json, write_surfa
 use field::Meshes;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use spec::{Crossing, Spec, Wall};
+use spec::{Crossing, Spec, Triangles, Wall};
 use std::path::{Path, PathBuf};
-use welter_meshing::field::{AnyField, ScalarField};
+use welter_meshing::field::{AnyField, Offset, ScalarField};
 use welter_meshing::grid::{Grid2, Grid3, Samples};
 use welter_meshing::io::{DataArray, VtiEncoding, WriteError, write_vti};
 use welter_meshing::isosurface::{IsosurfaceError, MarchingCubes, marching_cubes, marching_cubes_open};
-use welter_meshing::surface::measure::{area, signed_volume};
-use welter_meshing::surface::{ClosedOrientedError, ClosedOrientedMesh, Topology, TriMesh};
+use welter_meshing::remesh::{Equilateral, RemeshError, equilateral};
+use welter_meshing::surface::measure::{angle_statistics, area, signed_volume};
+use welter_meshing::surface::{ClosedOrientedError, ClosedOrientedMesh, EmbeddedMesh, Topology, TriMesh};
 use welter_meshing::{DVec3, Monitor};
 
 /// Make the surface of a field that a scene file describes
@@ -58,7 +59,7 @@ Kinds and their keys:
   offset: field, distance    shell: field, thickness    complement: field    affine: field, matrix
   noise: wavelength, octaves, gain, lacunarity, seed    displaced: field, amplitude and those of noise
   all: scale, rotate = { axis, degrees }, translate (in this order)
-[surface]: level = 0, crossing, wall = \"cap\" | \"open\", triangles = \"marching-cubes\"
+[surface]: level = 0, crossing, wall = \"cap\" | \"open\", triangles = \"marching-cubes\" | \"equilateral\"
 [grid]: bounds = [[x, y, z], [x, y, z]] where the field has none of its own
 
 Examples:
@@ -299,13 +300,18 @@ fn surface(
 ) -> Result<TriMesh, Box<Failure>> {
     let roots_of = (spec.crossing == Crossing::Root).then_some(field as &dyn ScalarField);
     let marching = MarchingCubes { level: spec.level, roots_of, ..MarchingCubes::default() };
-    let mesh = match spec.wall {
-        Wall::Cap => {
-            marching_cubes(samples, &marching, monitor).map(|m| m.into_closed_oriented().into_mesh())
+    let undefined = |error| undefined(scene, &error);
+    let mesh = match (spec.wall, spec.triangles) {
+        (Wall::Open, _) => marching_cubes_open(samples, &marching, monitor).map_err(undefined)?,
+        (Wall::Cap, Triangles::MarchingCubes) => {
+            let mesh = marching_cubes(samples, &marching, monitor).map_err(undefined)?;
+            mesh.into_closed_oriented().into_mesh()
         }
-        Wall::Open => marching_cubes_open(samples, &marching, monitor),
+        (Wall::Cap, Triangles::Equilateral) => {
+            let mesh = marching_cubes(samples, &marching, monitor).map_err(undefined)?;
+            remeshed(scene, &mesh, spec.level, samples.grid().spacing(), field, monitor)?
+        }
     };
-    let mesh = mesh.map_err(|error| undefined(scene, &error))?;
     if mesh.triangles().is_empty() {
         let (least, greatest) = samples
             .values()
@@ -322,6 +328,32 @@ fn surface(
     Ok(mesh)
 }
 
+/// The surface with triangles near equilateral, their edges as long as the cells of the grid.
+fn remeshed(
+    scene: &Scene,
+    mesh: &EmbeddedMesh,
+    level: f64,
+    edge_length: f64,
+    field: &AnyField<'_>,
+    monitor: &Monitor<'_>,
+) -> Result<TriMesh, Box<Failure>> {
+    let surface = Offset { field: field.clone(), distance: level };
+    let parameters = Equilateral { edge_length, ..Equilateral::default() };
+    let subject = scene.name.display().to_string();
+    match equilateral(mesh, &surface, &parameters, monitor) {
+        Ok((mesh, _)) => Ok(mesh.into_closed_oriented().into_mesh()),
+        Err(RemeshError::TooFar { .. } | RemeshError::TooManyTriangles { .. }) => {
+            let what = "the cells are too small for near equilateral triangles";
+            Err(Failure::new(Code::GridRefused, what)
+                .subject(subject)
+                .help("take a larger spacing, or triangles = \"marching-cubes\""))
+        }
+        Err(error) => Err(Failure::new(Code::OwnBug, error.to_string())
+            .subject(subject)
+            .help("send the scene to the authors")),
+    }
+}
+
 /// What is told of the surface, in the order of the contract. Open surfaces have no volume.
 fn facts(mesh: &TriMesh, wall: Wall) -> Vec<(&'static str, Value)> {
     let topology = Topology::of(mesh);
@@ -333,6 +365,7 @@ fn facts(mesh: &TriMesh, wall: Wall) -> Vec<(&'static str, Value)> {
         ("euler_characteristic", json!(topology.euler_characteristic())),
         ("volume", json!(volume)),
         ("area", json!(area(mesh))),
+        ("smallest_angle", json!(angle_statistics(mesh).map(|angles| angles.min.to_degrees()))),
     ]
 }
 

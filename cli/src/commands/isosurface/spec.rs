@@ -27,6 +27,7 @@ pub(super) struct Spec {
     pub(super) level: f64,
     pub(super) crossing: Crossing,
     pub(super) wall: Wall,
+    pub(super) triangles: Triangles,
     /// Where the grid is described, for faults of it.
     grid_span: Range<usize>,
 }
@@ -51,6 +52,14 @@ pub(super) enum Wall {
     Open,
 }
 
+/// How the surface is divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Triangles {
+    MarchingCubes,
+    /// As long as the cells of the grid.
+    Equilateral,
+}
+
 impl Spec {
     pub(super) fn of(scene: &Scene, table: &Spanned<DeTable<'_>>) -> Result<Self, Box<Failure>> {
         let whole = Section::whole(scene, table);
@@ -61,6 +70,7 @@ impl Spec {
             level: 0.0,
             crossing: Crossing::Root,
             wall: Wall::Cap,
+            triangles: Triangles::MarchingCubes,
             grid_span: 0..0,
         };
         if let Some(grid) = whole.get("grid") {
@@ -99,7 +109,14 @@ impl Spec {
         self.crossing =
             surface.choice("crossing", &[("root", Crossing::Root), ("linear", Crossing::Linear)])?;
         self.wall = surface.choice("wall", &[("cap", Wall::Cap), ("open", Wall::Open)])?;
-        surface.choice("triangles", &[("marching-cubes", ())])?;
+        let triangles =
+            [("marching-cubes", Triangles::MarchingCubes), ("equilateral", Triangles::Equilateral)];
+        self.triangles = surface.choice("triangles", &triangles)?;
+        if self.triangles == Triangles::Equilateral && self.wall == Wall::Open {
+            return Err(
+                surface.bad("wall", "near equilateral triangles need a closed surface: wall = \"cap\"")
+            );
+        }
         Ok(())
     }
 
