@@ -10,35 +10,15 @@
 //! sides, and the field is zero on these and negative around them. An offset outward does not see them.
 //!
 //! # Complexity
-//! O(log n) for each of the two queries in practice.
+//! O(log n) for each of the two queries in practice. All nodes of a grid at once are quicker by
+//! [`signed_distance`](crate::distance::signed_distance), with the same values.
 
 use glam::DVec3;
 
+use crate::distance::InsideRule;
 use crate::field::{ScalarField, direction, grown};
 use crate::spatial::{Box3, Winding, WindingNumbers};
 use crate::surface::ClosedOrientedMesh;
-
-/// Which winding numbers are inside.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Inside {
-    /// One and above: overlaps are inside, and what is oriented inward is hollow.
-    #[default]
-    Positive,
-    /// All but zero: parts turned inside out are inside too.
-    NonZero,
-    /// Odd ones: overlaps of two are outside.
-    Odd,
-}
-
-impl Inside {
-    fn holds(self, number: i32) -> bool {
-        match self {
-            Self::Positive => number > 0,
-            Self::NonZero => number != 0,
-            Self::Odd => number % 2 != 0,
-        }
-    }
-}
 
 /// The signed distance to a closed mesh, which may intersect itself.
 ///
@@ -46,9 +26,9 @@ impl Inside {
 /// that has none.
 ///
 /// ```
-/// use welter_meshing::{DVec3, field::{Inside, MeshDistance, Offset, ScalarField}, shapes::{Box_, box_}};
+/// use welter_meshing::{DVec3, distance::InsideRule, field::{MeshDistance, Offset, ScalarField}, shapes::{Box_, box_}};
 /// let mesh = box_(&Box_::default())?; // [-1, 1]^3
-/// let field = MeshDistance::new(&mesh, Inside::default());
+/// let field = MeshDistance::new(&mesh, InsideRule::default());
 /// assert_eq!(field.value(DVec3::ZERO), -1.0);
 /// let larger = Offset { field, distance: 0.5 };
 /// assert_eq!(larger.value(DVec3::new(2.0, 0.3, 0.0)), 0.5);
@@ -57,14 +37,14 @@ impl Inside {
 #[derive(Clone, Debug)]
 pub struct MeshDistance<'m> {
     numbers: WindingNumbers<'m>,
-    inside: Inside,
+    inside: InsideRule,
     around: Box3,
 }
 
 impl<'m> MeshDistance<'m> {
     /// Builds a hierarchy for the mesh.
     #[must_use]
-    pub fn new(mesh: &'m ClosedOrientedMesh, inside: Inside) -> Self {
+    pub fn new(mesh: &'m ClosedOrientedMesh, inside: InsideRule) -> Self {
         let used = mesh.triangles().iter().flatten().map(|v| mesh.positions()[v.0 as usize]);
         Self { numbers: WindingNumbers::new(mesh), inside, around: Box3::of(used) }
     }

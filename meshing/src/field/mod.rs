@@ -59,7 +59,7 @@ pub use displaced::Displaced;
 pub use error::FieldError;
 pub use gyroid::Gyroid;
 pub use level::{Complement, Offset, Shell};
-pub use mesh::{Inside, MeshDistance};
+pub use mesh::MeshDistance;
 pub use noise::{FractalNoise, GradientNoise, NOISE_BOUND};
 pub use placed::{Affine, Placed, rotation_about};
 pub use primitives::{Ball, Capsule, Cuboid, Cylinder, Ellipsoid, HalfSpace, Torus};

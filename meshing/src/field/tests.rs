@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::*;
+use crate::distance::InsideRule;
 use crate::shapes::{BoxPair, Sphere, sphere, two_boxes};
 
 /// Numbers in [0, 1), the same ones on every machine.
@@ -351,7 +352,7 @@ fn rotations_turn_and_multiples_of_right_angles_are_exact() {
 #[test]
 fn the_distance_to_a_mesh_of_a_sphere_is_that_of_its_triangles() {
     let mesh = sphere(&Sphere { edge_length: 0.2, ..Sphere::default() }).expect("valid parameters");
-    let (field, ball) = (MeshDistance::new(&mesh, Inside::default()), Ball::default());
+    let (field, ball) = (MeshDistance::new(&mesh, InsideRule::default()), Ball::default());
     let mut random = Random(13);
     for _ in 0..300 {
         let p = random.point(1.5);
@@ -372,7 +373,7 @@ fn what_is_inside_of_overlapping_boxes_is_chosen() {
     let pair = BoxPair::overlapping();
     let mesh = two_boxes(&pair).expect("valid parameters");
     let middle = 0.5 * (pair.second[0] + pair.first[1]);
-    let values = [Inside::Positive, Inside::NonZero, Inside::Odd]
+    let values = [InsideRule::Positive, InsideRule::NonZero, InsideRule::Odd]
         .map(|inside| MeshDistance::new(&mesh, inside).value(middle));
     assert!(values[0] < 0.0 && values[1] < 0.0 && values[2] > 0.0, "{values:?}");
 }

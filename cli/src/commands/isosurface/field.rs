@@ -6,6 +6,7 @@ use crate::scene::{Entry, Section};
 use glam::{DMat3, DVec3};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use welter_meshing::distance::InsideRule;
 use welter_meshing::field::*;
 use welter_meshing::surface::ClosedOrientedMesh;
 
@@ -157,7 +158,8 @@ impl<'m> Builder<'m> {
 
     fn mesh(&mut self, s: &Section<'_>) -> Result<AnyField<'m>, Box<Failure>> {
         let file = PathBuf::from(s.required("file")?.text()?);
-        let inside = [("positive", Inside::Positive), ("nonzero", Inside::NonZero), ("odd", Inside::Odd)];
+        let inside =
+            [("nonzero", InsideRule::NonZero), ("positive", InsideRule::Positive), ("odd", InsideRule::Odd)];
         let inside = s.choice("inside", &inside)?;
         let Some(meshes) = self.meshes else {
             self.files.push(file);

@@ -53,7 +53,7 @@ Kinds and their keys:
   torus       radius, tube_radius,        text          words, height, pen_radius, depth,
               center, axis                              caps = \"flat\" | \"rounded\"
   capsule     ends, radius                mesh          file (closed; beside the scene),
-  cylinder    ends, radius                              inside = \"positive\" | \"nonzero\" | \"odd\"
+  cylinder    ends, radius                              inside = \"nonzero\" | \"positive\" | \"odd\"
   ellipsoid   semi_axes, center           constant      value
   union, intersection: parts, blend_width      difference: from, removed, blend_width
   offset: field, distance    shell: field, thickness    complement: field    affine: field, matrix
