@@ -6,7 +6,9 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::ScalarField;
+use crate::grid::Grid3;
 use crate::spatial::Box3;
+use crate::{Cancelled, Monitor};
 
 /// A field of any type, shared: a node of a tree of fields that is built when the program runs. Copies share the field.
 ///
@@ -47,5 +49,13 @@ impl ScalarField for AnyField<'_> {
 
     fn sublevel_bounds(&self, level: f64) -> Option<Box3> {
         self.0.sublevel_bounds(level)
+    }
+
+    fn knows_nodes(&self) -> bool {
+        self.0.knows_nodes()
+    }
+
+    fn at_nodes(&self, grid: &Grid3, monitor: &Monitor<'_>) -> Result<Vec<f64>, Cancelled> {
+        self.0.at_nodes(grid, monitor)
     }
 }

@@ -20,8 +20,10 @@
 use glam::DVec3;
 
 use crate::field::error::{require, require_length_or_zero};
-use crate::field::{FieldError, ScalarField};
+use crate::field::{FieldError, ScalarField, nodes};
+use crate::grid::Grid3;
 use crate::spatial::Box3;
+use crate::{Cancelled, Monitor};
 
 /// The smooth minimum of two numbers: the least of them, less at most a quarter of `width` where they differ by less than `width`.
 ///
@@ -162,6 +164,18 @@ impl<F: ScalarField> ScalarField for Union<F> {
             .iter()
             .try_fold(Box3::EMPTY, |around, part| Some(around.union(&part.sublevel_bounds(level)?)))
     }
+
+    fn knows_nodes(&self) -> bool {
+        self.parts.iter().any(ScalarField::knows_nodes)
+    }
+
+    fn at_nodes(&self, grid: &Grid3, monitor: &Monitor<'_>) -> Result<Vec<f64>, Cancelled> {
+        if !self.knows_nodes() {
+            return nodes::one_by_one(self, grid, monitor);
+        }
+        let joined = |a, b| smooth_min(a, b, self.blend_width);
+        nodes::folded(&self.parts, f64::INFINITY, grid, monitor, joined)
+    }
 }
 
 impl<F: ScalarField> ScalarField for Intersection<F> {
@@ -178,6 +192,18 @@ impl<F: ScalarField> ScalarField for Intersection<F> {
         // A smooth maximum is at least each part.
         self.parts.iter().filter_map(|part| part.sublevel_bounds(level)).reduce(|a, b| common(&a, &b))
     }
+
+    fn knows_nodes(&self) -> bool {
+        self.parts.iter().any(ScalarField::knows_nodes)
+    }
+
+    fn at_nodes(&self, grid: &Grid3, monitor: &Monitor<'_>) -> Result<Vec<f64>, Cancelled> {
+        if !self.knows_nodes() {
+            return nodes::one_by_one(self, grid, monitor);
+        }
+        let joined = |a, b| smooth_max(a, b, self.blend_width);
+        nodes::folded(&self.parts, f64::NEG_INFINITY, grid, monitor, joined)
+    }
 }
 
 impl<A: ScalarField, B: ScalarField> ScalarField for Difference<A, B> {
@@ -193,6 +219,18 @@ impl<A: ScalarField, B: ScalarField> ScalarField for Difference<A, B> {
 
     fn sublevel_bounds(&self, level: f64) -> Option<Box3> {
         self.from.sublevel_bounds(level)
+    }
+
+    fn knows_nodes(&self) -> bool {
+        self.from.knows_nodes() || self.removed.knows_nodes()
+    }
+
+    fn at_nodes(&self, grid: &Grid3, monitor: &Monitor<'_>) -> Result<Vec<f64>, Cancelled> {
+        if !self.knows_nodes() {
+            return nodes::one_by_one(self, grid, monitor);
+        }
+        let (from, removed) = (self.from.at_nodes(grid, monitor)?, self.removed.at_nodes(grid, monitor)?);
+        Ok(nodes::joined(from, &removed, |a, b| smooth_max(a, -b, self.blend_width)))
     }
 }
 

@@ -3,9 +3,11 @@
 use glam::DVec3;
 
 use crate::field::error::{require, require_length};
-use crate::field::{FieldError, ScalarField};
+use crate::field::{FieldError, ScalarField, nodes};
+use crate::grid::Grid3;
 use crate::shapes::MAX_LENGTH;
 use crate::spatial::Box3;
+use crate::{Cancelled, Monitor};
 
 /// A field less a constant: of a distance, the surface at a distance outward, or inward for a negative one.
 ///
@@ -48,6 +50,17 @@ impl<F: ScalarField> ScalarField for Offset<F> {
     fn sublevel_bounds(&self, level: f64) -> Option<Box3> {
         self.field.sublevel_bounds(level + self.distance)
     }
+
+    fn knows_nodes(&self) -> bool {
+        self.field.knows_nodes()
+    }
+
+    fn at_nodes(&self, grid: &Grid3, monitor: &Monitor<'_>) -> Result<Vec<f64>, Cancelled> {
+        if !self.field.knows_nodes() {
+            return nodes::one_by_one(self, grid, monitor);
+        }
+        Ok(nodes::mapped(self.field.at_nodes(grid, monitor)?, |value| value - self.distance))
+    }
 }
 
 /// Everything within half of a thickness of the surface of a field, on both sides.
@@ -84,6 +97,17 @@ impl<F: ScalarField> ScalarField for Shell<F> {
     fn sublevel_bounds(&self, level: f64) -> Option<Box3> {
         self.field.sublevel_bounds(level + 0.5 * self.thickness)
     }
+
+    fn knows_nodes(&self) -> bool {
+        self.field.knows_nodes()
+    }
+
+    fn at_nodes(&self, grid: &Grid3, monitor: &Monitor<'_>) -> Result<Vec<f64>, Cancelled> {
+        if !self.field.knows_nodes() {
+            return nodes::one_by_one(self, grid, monitor);
+        }
+        Ok(nodes::mapped(self.field.at_nodes(grid, monitor)?, |value| value.abs() - 0.5 * self.thickness))
+    }
 }
 
 /// Everything that is not in a field: its negation. It has no bounds.
@@ -100,5 +124,16 @@ impl<F: ScalarField> ScalarField for Complement<F> {
 
     fn gradient(&self, point: DVec3, step: f64) -> DVec3 {
         -self.field.gradient(point, step)
+    }
+
+    fn knows_nodes(&self) -> bool {
+        self.field.knows_nodes()
+    }
+
+    fn at_nodes(&self, grid: &Grid3, monitor: &Monitor<'_>) -> Result<Vec<f64>, Cancelled> {
+        if !self.field.knows_nodes() {
+            return nodes::one_by_one(self, grid, monitor);
+        }
+        Ok(nodes::mapped(self.field.at_nodes(grid, monitor)?, |value| -value))
     }
 }

@@ -46,6 +46,7 @@ mod error;
 mod gyroid;
 mod level;
 mod mesh;
+mod nodes;
 mod noise;
 mod placed;
 mod primitives;
@@ -67,7 +68,9 @@ pub use text::{Caps, Text, TextShape};
 
 use glam::DVec3;
 
+use crate::grid::Grid3;
 use crate::spatial::Box3;
+use crate::{Cancelled, Monitor};
 
 /// A number at each point of space. Negative inside of the surface that it stands for, positive outside.
 ///
@@ -100,6 +103,19 @@ pub trait ScalarField: Sync {
     fn sublevel_bounds(&self, level: f64) -> Option<Box3> {
         let _ = level;
         None
+    }
+
+    /// Whether [`ScalarField::at_nodes`] knows a faster way than one node after the other.
+    fn knows_nodes(&self) -> bool {
+        false
+    }
+
+    /// The values at all nodes of a grid in the order of node numbers, the same bits as of [`ScalarField::value`]; in parallel.
+    ///
+    /// # Errors
+    /// [`Cancelled`] by the monitor.
+    fn at_nodes(&self, grid: &Grid3, monitor: &Monitor<'_>) -> Result<Vec<f64>, Cancelled> {
+        nodes::one_by_one(self, grid, monitor)
     }
 }
 

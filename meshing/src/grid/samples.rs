@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::Grid;
 use crate::field::ScalarField;
-use crate::{Cancelled, DVec3, Monitor};
+use crate::{Cancelled, Monitor};
 
 /// A sample is NaN.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -112,18 +112,6 @@ impl Samples<3> {
     /// # Errors
     /// [`Cancelled`] by the monitor.
     pub fn of(grid: &Grid<3>, field: &impl ScalarField, monitor: &Monitor<'_>) -> Result<Self, Cancelled> {
-        let [nx, ny, nz] = grid.nodes();
-        let stage = monitor.stage("sampling", u64::from(ny) * u64::from(nz));
-        let mut values = vec![0.0; grid.node_count()];
-        values.par_chunks_mut(nx as usize).enumerate().try_for_each(|(row, values)| {
-            stage.check()?;
-            let [_, y, z] = grid.node(grid.node_at(row * nx as usize));
-            for (i, value) in (0..nx).zip(values) {
-                *value = field.value(DVec3::new(grid.coordinate(0, i), y, z));
-            }
-            stage.advance(1);
-            Ok(())
-        })?;
-        Ok(Self { grid: *grid, values })
+        Ok(Self { grid: *grid, values: field.at_nodes(grid, monitor)? })
     }
 }

@@ -92,6 +92,9 @@ pub(crate) struct Args {
 /// Memory for each node of the grid in bytes: the sample, and half as much for signs and the surface.
 const BYTES_A_NODE: u64 = 12;
 
+/// The same with meshes in the scene: their winding numbers, and samples of another part to be joined.
+const BYTES_A_NODE_WITH_MESHES: u64 = BYTES_A_NODE + 12;
+
 /// Memory for each pixel of the picture in bytes: its colour, and the share of ink.
 const BYTES_A_PIXEL: u64 = 7;
 
@@ -113,7 +116,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     let meshes = console.stage(&mut seconds, "reading", || read_meshes(args, run, files))?;
     let (field, _) = spec::field(&scene, &table, Some(&meshes))?;
     let grid = spec.grid(&scene, &field)?;
-    require_memory(args, &grid)?;
+    require_memory(args, &grid, !meshes.is_empty())?;
 
     let report = |p: welter_meshing::Progress| console.progress.report(p.stage, p.done, p.total);
     let monitor = Monitor::new(Some(&report), None);
@@ -249,9 +252,10 @@ fn read_meshes(args: &Args, run: &Run, files: Vec<PathBuf>) -> Result<Meshes, Bo
     Ok(meshes)
 }
 
-fn require_memory(args: &Args, grid: &Grid3) -> Result<(), Box<Failure>> {
+fn require_memory(args: &Args, grid: &Grid3, has_meshes: bool) -> Result<(), Box<Failure>> {
     let pixels = args.slice_picture.as_ref().map_or(0, |_| args.slice_size.map(u64::from).iter().product());
-    let nodes = (grid.node_count() as u64).saturating_mul(BYTES_A_NODE);
+    let bytes = if has_meshes { BYTES_A_NODE_WITH_MESHES } else { BYTES_A_NODE };
+    let nodes = (grid.node_count() as u64).saturating_mul(bytes);
     let needed = nodes.saturating_add(pixels * BYTES_A_PIXEL);
     match args.max_memory.or_else(machine::available_memory) {
         Some(free) if needed > free => {
