@@ -10,6 +10,7 @@
 //! * For smooth `q` and `phi`: the scheme is of first order in the spacing h over a length. Within a fixed number of
 //!   nodes from the surface the result differs from a smooth continuation of `q` by O(h) if constant, O(h^2) if linear.
 //! * Constant extrapolation makes no new extrema: every value lies between values inside.
+//! * Every value is finite: linear extrapolation ends at the largest number.
 //! * The same bits for any number of threads.
 //!
 //! # What it does not promise
@@ -231,9 +232,9 @@ impl<'a, const D: usize> Outward<'a, D> {
         if !(largest > 0.0 && largest.is_finite()) {
             return None;
         }
-        // Differences to one of the values: equal values have exactly their mean.
+        // Differences to one of the values: equal values have exactly their mean. Quarters where differences overflow.
         let one = nearer.iter().flatten().map(|&k| values[k]).next()?;
-        let (mut sum, mut squares, mut mean) = (0.0, 0.0, 0.0);
+        let (mut sum, mut squares, mut mean, mut quarters) = (0.0, 0.0, 0.0, 0.0);
         let (mut low, mut high) = (one, one);
         for (weight, k) in weights.into_iter().zip(nearer) {
             let Some(k) = k else { continue };
@@ -241,10 +242,12 @@ impl<'a, const D: usize> Outward<'a, D> {
             sum += weight;
             squares += weight * weight;
             mean += weight * (values[k] - one);
+            quarters += weight * (0.25 * values[k]);
             (low, high) = (low.min(values[k]), high.max(values[k]));
         }
-        let mean = (one + mean / sum).clamp(low, high);
-        Some(mean + self.grid.spacing() * slope * squares.sqrt() / sum)
+        let mean = if mean.is_finite() { one + mean / sum } else { quarters / sum * 4.0 };
+        let value = mean.clamp(low, high) + self.grid.spacing() * slope * squares.sqrt() / sum;
+        Some(value.clamp(-f64::MAX, f64::MAX))
     }
 }
 

@@ -259,3 +259,30 @@ fn what_no_extrapolation_can_take() {
     assert_eq!((report.extrapolated, report.unreached), (10, 10));
     assert_eq!(found, ones); // It changes along the contours only.
 }
+
+#[test]
+fn extrapolation_of_the_largest_numbers_stays_finite() {
+    // Differences of the quantity overflow, and weights underflow: infinity times zero.
+    let grid = Grid2::new([0.0; 2], 1.0, [4; 2]).unwrap();
+    let phi = sampled(grid, |[x, y]| match (x < 1.0, y < 1.0) {
+        (true, _) => -5e-324,
+        (_, true) => -1e10,
+        _ => 5e-324 * (x + y),
+    });
+    let huge = sampled(grid, |[x, y]| if x < 1.0 { f64::MAX } else { -f64::MAX * (0.5 + 0.1 * y) });
+    // Far outside the linear continuation is beyond the largest number.
+    let strip = sampled(grid, |[x, _]| x - 1.0);
+    let steep = sampled(grid, |[x, y]| (x - 0.5) * 1e308 * if y > 2.0 { -1.0 } else { 1.0 });
+    for (phi, quantity) in [(&phi, &huge), (&strip, &steep), (&strip, &huge)] {
+        for degree in [Degree::Constant, Degree::Linear] {
+            let parameters = ExtrapolationParameters { degree, ..ExtrapolationParameters::default() };
+            let (all, report) = extrapolate(quantity, phi, &parameters, &Monitor::none()).unwrap();
+            assert!(report.extrapolated > 0);
+            assert!(all.values().iter().all(|v| v.is_finite()), "{degree:?}: {:?}", all.values());
+        }
+    }
+    let linear = ExtrapolationParameters { degree: Degree::Linear, ..ExtrapolationParameters::default() };
+    let (all, _) = extrapolate(&steep, &strip, &linear, &Monitor::none()).unwrap();
+    assert_eq!(all.at([4, 0]), f64::MAX);
+    assert_eq!(all.at([4, 4]), -f64::MAX);
+}
