@@ -12,11 +12,12 @@
 //! that stay do not meet each other as before.
 //!
 //! It also keeps what is inside of what: the disc, the new triangles and the tetrahedra between the apex and
-//! the triangles of the disc bound the region swept by the change, and no vertex of a triangle that stays
-//! lies in one of these tetrahedra, but those on the boundary of the disc. So no other component is swept
-//! over: it would have a vertex there, or cross the old or the new triangles. (A triangle of the same
-//! component with all corners on the boundary of the disc has no such vertex. That the disc does not pass to
-//! its other side, as the three sides of a tetrahedron could, is up to the criterion below.)
+//! the triangles of the disc bound the region swept by the change. No vertex of a triangle that stays lies in
+//! one of these tetrahedra, but those on the boundary of the disc; and a triangle that stays with all corners
+//! on that boundary crosses no side between two of the tetrahedra, nor are its corners in one that they are
+//! no corners of. So no other component is swept over: it
+//! would have a vertex there, or cross the old or the new triangles. Nor does the disc pass to the other side
+//! of its own component, as three sides of a tetrahedron could through the fourth.
 //!
 //! # What else it asks
 //! The shape of new triangles, which is a criterion and no promise: their normals are at most [`STEEPEST`]
@@ -207,14 +208,13 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
         let swept: Vec<Box3> = before.iter().map(|&[a, b, c]| Box3::of([a, b, c, tip])).collect();
         let around = added.iter().chain(&swept).fold(Box3::EMPTY, |all, b| all.union(b));
         // Vertices of the new triangles are corners of the region.
+        let at_corner = |v: VertexId| after.iter().flatten().any(|&w| w == v);
         let sweeps = |v: VertexId| {
             let p = self.at(v);
             let contains = |(b, &[x, y, z]): (&Box3, &[DVec3; 3])| {
                 b.contains(p) && tetrahedron_contains([x, y, z, tip], p)
             };
-            around.contains(p)
-                && !after.iter().flatten().any(|&w| w == v)
-                && swept.iter().zip(before).any(contains)
+            around.contains(p) && !at_corner(v) && swept.iter().zip(before).any(contains)
         };
         self.buckets.all_near(&around, |t, own| {
             if disc.contains(&t) {
@@ -223,9 +223,32 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
             let corners = self.mesh.corners(t);
             let meets =
                 |(b, new): (&Box3, &[VertexId; 3])| own.meets(b) && meet_in_more(positions, corners, *new);
-            !added.iter().zip(after).any(meets) && !corners.iter().any(|&v| sweeps(v))
+            !added.iter().zip(after).any(meets)
+                && !corners.iter().any(|&v| sweeps(v))
+                && !(corners.iter().all(|&v| at_corner(v))
+                    && lies_between(before, tip, corners.map(|v| self.at(v))))
         })
     }
+}
+
+/// Whether a triangle may lie within the tetrahedra that join triangles of a disc to an apex: meets a side
+/// between two of them in more than common corners and edges, or has a corner in one that it is no corner of.
+/// Names are positions here: different vertices lie at different places.
+fn lies_between(disc: &[[DVec3; 3]], apex: DVec3, corners: [DVec3; 3]) -> bool {
+    let edges = || disc.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+    let mut inner = edges().filter(|&(p, q)| edges().any(|other| other == (q, p)));
+    let within = |&[x, y, z]: &[DVec3; 3]| {
+        let tetrahedron = [x, y, z, apex];
+        corners.iter().any(|p| !tetrahedron.contains(p) && tetrahedron_contains(tetrahedron, *p))
+    };
+    disc.iter().any(within)
+        || inner.any(|(p, q)| {
+            let [a, b, c] = corners;
+            let points = [a, b, c, apex, p, q];
+            let name =
+                |point: DVec3| VertexId::from_index(points.iter().position(|&x| x == point).unwrap_or(0));
+            meet_in_more(&points, corners.map(name), [apex, p, q].map(name))
+        })
 }
 
 #[cfg(test)]
@@ -280,6 +303,27 @@ mod tests {
         let mut piece = octahedron_and_speck();
         assert!(!piece.try_move(VertexId(4), DVec3::new(0.0, 0.0, -0.5), 1.0));
         assert_eq!((piece.refused.shape, piece.refused.intersection), (1, 0));
+    }
+
+    #[test]
+    fn a_tetrahedron_does_not_turn_inside_out() {
+        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let soup = TriangleSoup { positions: positions.clone(), triangles, ..TriangleSoup::default() };
+        let mesh = ClosedOrientedMesh::new(TriMesh::new(soup).unwrap()).unwrap();
+        let field = |p: DVec3| p.length() - 1.0;
+        let mut piece = Workpiece::new(&field, 1.0, Connectivity::new(&mesh).unwrap(), positions);
+        let top = VertexId(3);
+        let disc = piece.star(top);
+        let before: Vec<_> = disc.iter().map(|&t| piece.corners(t)).collect();
+        let after: Vec<_> = disc.iter().map(|&t| piece.mesh.corners(t)).collect();
+        let mut allows = |x: f64, z: f64| {
+            piece.positions[3] = DVec3::new(x, x, z);
+            piece.keeps_embedded(&Change { apex: top, disc: &disc, before: &before, after: &after })
+        };
+        assert!(allows(0.0, 0.5) && allows(0.3, 1e-300) && allows(5.0, 0.1));
+        assert!(!allows(0.3, 0.0), "flat");
+        assert!(!allows(0.3, -1e-300) && !allows(0.0, -1.0) && !allows(-0.1, -0.5) && !allows(0.3, -0.5));
     }
 
     #[test]
