@@ -223,10 +223,12 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
             let corners = self.mesh.corners(t);
             let meets =
                 |(b, new): (&Box3, &[VertexId; 3])| own.meets(b) && meet_in_more(positions, corners, *new);
-            !added.iter().zip(after).any(meets)
-                && !corners.iter().any(|&v| sweeps(v))
-                && !(corners.iter().all(|&v| at_corner(v))
-                    && lies_between(before, tip, corners.map(|v| self.at(v))))
+            let enclosed = || {
+                corners.iter().all(|&v| at_corner(v))
+                    && lies_between(before, tip, corners.map(|v| self.at(v)))
+            };
+            let hit = added.iter().zip(after).any(meets) || corners.iter().any(|&v| sweeps(v)) || enclosed();
+            !hit
         })
     }
 }
