@@ -4,6 +4,7 @@ use super::RemeshError;
 use super::buckets::MOST_REACHES;
 use super::connectivity::Connectivity;
 use super::report::RemeshReport;
+use super::rounds::LONG_REL;
 use super::shape::area_vector;
 use super::workpiece::Workpiece;
 use crate::field::ScalarField;
@@ -130,7 +131,14 @@ fn require_room(mesh: &TriMesh, edge_length: f64) -> Result<(), RemeshError> {
     }
     let scaled = |t: usize| area_vector(mesh.corners(TriId::from_index(t)).map(|p| p / edge_length)).length();
     let area: f64 = (0..mesh.triangles().len()).map(scaled).sum::<f64>() / 2.0;
-    let triangles = area / UNIT_AREA;
+    // A needle of no area is cut too, along its length.
+    let longest = |t: usize| {
+        let [a, b, c] = mesh.corners(TriId::from_index(t)).map(|p| p / edge_length);
+        let side = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        if side > LONG_REL { side } else { 0.0 }
+    };
+    let along: f64 = (0..mesh.triangles().len()).map(longest).sum();
+    let triangles = (area / UNIT_AREA).max(along);
     if triangles > MOST_TRIANGLES {
         return Err(RemeshError::TooManyTriangles { edge_length, triangles, most: MOST_TRIANGLES });
     }

@@ -28,8 +28,9 @@ const MOST_SPLIT_SWEEPS: usize = 64;
 /// How often the way is halved when a move is refused.
 const SHORTER_MOVES: usize = 2;
 
-/// Where how many elements are looked at before the monitor is asked.
-pub(super) const BETWEEN_CHECKS: usize = 1024;
+/// How many elements are looked at before the monitor is asked: few, because one change of nearly flat triangles may cost milliseconds of
+/// exact arithmetic; asking costs a load.
+pub(super) const BETWEEN_CHECKS: usize = 8;
 
 impl<F: ScalarField> Workpiece<'_, F> {
     /// Splits edges longer than [`LONG_REL`], longest first, until none is left or no split is accepted.

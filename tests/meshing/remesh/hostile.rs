@@ -202,6 +202,19 @@ fn what_cannot_be_done_is_refused_by_name() {
 }
 
 #[test]
+fn a_needle_of_no_area_is_too_long_all_the_same() {
+    let [l, w] = [1e9, 1e-9];
+    let positions =
+        [[0.0, 0.0, 0.0], [l, 0.0, 0.0], [0.5 * l, w, 0.0], [0.5 * l, 0.0, w]].map(DVec3::from_array);
+    let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let needle =
+        embedded(TriangleSoup { positions: positions.to_vec(), triangles, ..TriangleSoup::default() });
+    let parameters = Equilateral { edge_length: 1.0, ..Equilateral::default() };
+    let error = equilateral(&needle, &|p: DVec3| p.y, &parameters, &Monitor::none()).unwrap_err();
+    assert!(matches!(error, RemeshError::TooManyTriangles { triangles, .. } if triangles > 2e9), "{error}");
+}
+
+#[test]
 fn a_surface_without_triangles_stays_without() {
     let nothing = cubes(&grid(4), &|_: DVec3| 1.0);
     let (mesh, report) = remeshed(&nothing, &ball, 0.1);
