@@ -129,11 +129,15 @@ fn extract(
 ) -> Result<TriMesh, IsosurfaceError> {
     parameters.validate()?;
     require_room(samples.grid(), parameters.margin)?;
-    let signs = Signs::new(samples, parameters.level, capped, monitor)?;
-    let positions = positions(&signs, &Crossings { samples, parameters }, monitor)?;
-    let triangles = triangles(&signs, monitor)?;
-    let soup = TriangleSoup { positions, triangles, ..TriangleSoup::default() };
-    Ok(TriMesh::new(soup).expect("finite vertices, numbered without gaps, three different ones a triangle"))
+    // All stages in the pool at once: each by itself would hand its work over and wait, which takes longer than a small grid does.
+    rayon::scope(|_| {
+        let signs = Signs::new(samples, parameters.level, capped, monitor)?;
+        let positions = positions(&signs, &Crossings { samples, parameters }, monitor)?;
+        let triangles = triangles(&signs, monitor)?;
+        let soup = TriangleSoup { positions, triangles, ..TriangleSoup::default() };
+        Ok(TriMesh::new(soup)
+            .expect("finite vertices, numbered without gaps, three different ones a triangle"))
+    })
 }
 
 /// The position of every vertex.
