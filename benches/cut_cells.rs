@@ -10,9 +10,9 @@
 #![allow(clippy::print_stdout)] // a report is what a benchmark is for
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use glam::DVec3;
+use welter_benches::best;
 use welter_meshing::Monitor;
 use welter_meshing::cut_cells::{CutCells, MASS_DEGREE};
 use welter_meshing::grid::{Grid3, Samples};
@@ -23,30 +23,19 @@ use welter_meshing::surface::measure::{area, signed_volume};
 /// Runs of each measurement.
 const RUNS: usize = 3;
 
-fn best<T>(mut run: impl FnMut() -> T) -> (f64, T) {
-    let mut fastest: Option<(f64, T)> = None;
-    for _ in 0..RUNS {
-        let start = Instant::now();
-        let result = black_box(run());
-        let time = start.elapsed().as_secs_f64();
-        if fastest.as_ref().is_none_or(|(best, _)| time < *best) {
-            fastest = Some((time, result));
-        }
-    }
-    fastest.expect("one run at least")
-}
-
 fn measure(n: u32) -> [f64; 2] {
     let grid = Grid3::covering([-1.0; 3], [1.0; 3], 2.0 / f64::from(n - 2), 0).expect("a grid");
     let center = DVec3::new(0.0131, -0.0207, 0.0341);
     let samples =
         Samples::of(&grid, &|p: DVec3| p.distance(center) - 0.801, &Monitor::none()).expect("nobody stops");
     let parameters = MarchingCubes::default();
-    let (cut, cells) = best(|| CutCells::new(&samples, &parameters, &Monitor::none()).expect("numbers"));
-    let (cubes, mesh) = best(|| marching_cubes(&samples, &parameters, &Monitor::none()).expect("numbers"));
-    let (sums, [volume, surface]) = best(|| [cells.volume(), cells.area()]);
+    let (cut, cells) =
+        best(RUNS, || CutCells::new(&samples, &parameters, &Monitor::none()).expect("numbers"));
+    let (cubes, mesh) =
+        best(RUNS, || marching_cubes(&samples, &parameters, &Monitor::none()).expect("numbers"));
+    let (sums, [volume, surface]) = best(RUNS, || [cells.volume(), cells.area()]);
     let rule = TetrahedronRule::of_degree(MASS_DEGREE).expect("a moderate degree");
-    let (quadrature, moment) = best(|| {
+    let (quadrature, moment) = best(RUNS, || {
         let points = cells.iter().step_by(16).flat_map(|cell| cell.volume_points(&rule));
         points.map(|q| q.weight * q.point.x * q.point.x).sum::<f64>()
     });

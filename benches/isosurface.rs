@@ -13,11 +13,11 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::hint::black_box;
-use std::time::Instant;
 
 use fast_surface_nets::ndshape::{RuntimeShape, Shape};
 use fast_surface_nets::{SurfaceNetsBuffer, surface_nets};
 use glam::DVec3;
+use welter_benches::{best, memory};
 use welter_meshing::Monitor;
 use welter_meshing::grid::{Grid3, Samples};
 use welter_meshing::isosurface::{MarchingCubes, marching_cubes};
@@ -37,26 +37,6 @@ fn field(p: DVec3) -> f64 {
     p.distance(CENTER) - RADIUS
 }
 
-fn best<T>(mut run: impl FnMut() -> T) -> (f64, T) {
-    let mut fastest: Option<(f64, T)> = None;
-    for _ in 0..RUNS {
-        let start = Instant::now();
-        let result = black_box(run());
-        let time = start.elapsed().as_secs_f64();
-        if fastest.as_ref().is_none_or(|(best, _)| time < *best) {
-            fastest = Some((time, result));
-        }
-    }
-    fastest.expect("one run at least")
-}
-
-/// A line of /proc/self/status in bytes.
-fn status(key: &str) -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = text.lines().find(|line| line.starts_with(key))?;
-    line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kib| kib * 1024.0)
-}
-
 /// By how much the resident memory of a process of its own grows at most while it makes a surface, in bytes; samples excluded.
 fn growth(who: &str, n: u32) -> f64 {
     let this = std::env::current_exe().expect("a program has a path");
@@ -67,9 +47,9 @@ fn growth(who: &str, n: u32) -> f64 {
 
 /// What such a process prints.
 fn print_growth(run: impl FnOnce()) {
-    let before = status("VmRSS:");
+    let before = memory("VmRSS:");
     run();
-    if let (Some(before), Some(peak)) = (before, status("VmHWM:")) {
+    if let (Some(before), Some(peak)) = (before, memory("VmHWM:")) {
         println!("{}", peak - before);
     }
 }
@@ -107,7 +87,7 @@ fn surface(samples: &Samples<3>) -> EmbeddedMesh {
 
 fn ours(n: u32) -> Row {
     let (samples, scale) = our_samples(n);
-    let (seconds, mesh) = best(|| surface(&samples));
+    let (seconds, mesh) = best(RUNS, || surface(&samples));
     let (volume, whole) = (4.0 / 3.0 * PI * RADIUS.powi(3), 4.0 * PI * RADIUS * RADIUS);
     let errors = [
         (signed_volume(&mesh) * scale.powi(3) - volume).abs() / volume,
@@ -144,7 +124,7 @@ fn nets(n: u32, (shape, samples): &(RuntimeShape<u32, 3>, Vec<f32>)) -> SurfaceN
 
 fn surface_nets_of(n: u32) {
     let samples = nets_samples(n);
-    let (seconds, buffer) = best(|| nets(n, &samples));
+    let (seconds, buffer) = best(RUNS, || nets(n, &samples));
     let triangles = buffer.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]]);
     println!(
         "{n:4}^3  fast-surface-nets  {seconds:9.5} s   {:8} triangles   memory {:5.2} of the samples   {} open edges",
@@ -182,7 +162,7 @@ fn cubes(n: u32, source: &Lookup) -> (Vec<f32>, Vec<u32>) {
 
 fn isosurface_of(n: u32) {
     let source = lookup(n);
-    let (seconds, (_, indices)) = best(|| cubes(n, &source));
+    let (seconds, (_, indices)) = best(RUNS, || cubes(n, &source));
     println!(
         "{n:4}^3  isosurface         {seconds:9.5} s   {:8} triangles   memory {:5.2} of the samples   {} open edges",
         indices.len() / 3,

@@ -10,12 +10,12 @@
 #![allow(clippy::print_stdout)] // a report is what a benchmark is for
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh as ParryBvh, BvhBuildStrategy, BvhWorkspace};
+use welter_benches::{best, memory};
 use welter_meshing::Monitor;
 use welter_meshing::shapes::{Sphere, sphere};
 use welter_meshing::spatial::{Box3, Bvh, Sharing};
@@ -46,32 +46,12 @@ fn chain(triangles: usize) -> TriMesh {
     TriMesh::new(soup).expect("a valid mesh")
 }
 
-fn best<T>(mut run: impl FnMut() -> T) -> (Duration, T) {
-    let mut fastest: Option<(Duration, T)> = None;
-    for _ in 0..RUNS {
-        let start = Instant::now();
-        let result = black_box(run());
-        let time = start.elapsed();
-        if fastest.as_ref().is_none_or(|(best, _)| time < *best) {
-            fastest = Some((time, result));
-        }
-    }
-    fastest.expect("one run at least")
-}
-
-/// A line of /proc/self/status in mebibytes.
-fn status(key: &str) -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = text.lines().find(|line| line.starts_with(key))?;
-    line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kib| kib / 1024.0)
-}
-
 /// Peak resident memory while `run` runs, in mebibytes.
 fn peak_memory(run: impl FnOnce()) -> Option<f64> {
     // Forgets the peak so far.
     std::fs::write("/proc/self/clear_refs", "5").ok();
     run();
-    status("VmHWM:")
+    memory("VmHWM:").map(|bytes| bytes / (1 << 20) as f64)
 }
 
 struct Row {
@@ -88,15 +68,14 @@ fn measure(triangles: usize) -> Row {
         let pairs = Bvh::new(&mesh).self_intersections(Sharing::Index, &nobody);
         black_box(pairs.expect("nobody cancels"));
     });
-    let (build, bvh) = best(|| Bvh::new(&mesh));
-    let (boxes, meeting) = best(|| bvh.self_pairs(&nobody).expect("nobody cancels").len());
+    let (build, bvh) = best(RUNS, || Bvh::new(&mesh));
+    let (boxes, meeting) = best(RUNS, || bvh.self_pairs(&nobody).expect("nobody cancels").len());
     let (list, found) =
-        best(|| bvh.self_intersections(Sharing::Index, &nobody).expect("nobody cancels").len());
-    let (refit, _) = best(|| Bvh::refitted(bvh.tree().clone(), &mesh).expect("the same mesh"));
+        best(RUNS, || bvh.self_intersections(Sharing::Index, &nobody).expect("nobody cancels").len());
+    let (refit, _) = best(RUNS, || Bvh::refitted(bvh.tree().clone(), &mesh).expect("the same mesh"));
     drop(bvh);
-    let (build, list) = (build.as_secs_f64(), list.as_secs_f64());
     println!("{n} triangles, {meeting} pairs of meeting boxes, {found} intersecting pairs");
-    println!("  welter  build {build:9.4} s   boxes {:9.4} s   refit {:9.4} s", secs(boxes), secs(refit));
+    println!("  welter  build {build:9.4} s   boxes {:9.4} s   refit {:9.4} s", boxes, refit);
     println!(
         "  welter  exact list {list:9.4} s   build + list {:9.4} s   {:.3e} box pairs/s",
         build + list,
@@ -107,9 +86,9 @@ fn measure(triangles: usize) -> Row {
     }
     for (name, strategy) in [("binned", BvhBuildStrategy::Binned), ("ploc", BvhBuildStrategy::Ploc)] {
         let leaves: Vec<Aabb> = (0..n as u32).map(|t| aabb(Box3::of(mesh.corners(TriId(t))))).collect();
-        let (parry_build, parry) = best(|| ParryBvh::from_leaves(strategy, &leaves));
+        let (parry_build, parry) = best(RUNS, || ParryBvh::from_leaves(strategy, &leaves));
         let mut workspace = BvhWorkspace::default();
-        let (parry_pairs, count) = best(|| {
+        let (parry_pairs, count) = best(RUNS, || {
             let mut pairs: Vec<[u32; 2]> = Vec::new();
             parry.traverse_bvtt_single_tree::<false>(&mut workspace, &mut |i, j| {
                 pairs.push([i.min(j), i.max(j)])
@@ -119,15 +98,10 @@ fn measure(triangles: usize) -> Row {
         });
         println!(
             "  parry ({name:6}) build {:9.4} s   boxes {:9.4} s   {count} pairs",
-            secs(parry_build),
-            secs(parry_pairs)
+            parry_build, parry_pairs
         );
     }
     Row { triangles: n, build, list }
-}
-
-fn secs(time: Duration) -> f64 {
-    time.as_secs_f64()
 }
 
 fn aabb(b: Box3) -> Aabb {
