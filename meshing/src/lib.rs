@@ -26,6 +26,7 @@ pub mod remesh;
 pub mod shapes;
 pub mod spatial;
 pub mod surface;
+pub mod volumetric;
 
 pub use glam::{DVec2, DVec3};
 pub use monitor::{Cancelled, Monitor, Progress, Stage};
