@@ -43,6 +43,8 @@ const ORIENT3D: f64 = 47.0;
 const ORIENT4D: f64 = 281.0;
 const INCIRCLE: f64 = 129.0;
 const INSPHERE: f64 = 1105.0;
+const CROSSINGS: f64 = 1105.0;
+const SLOPES: f64 = 281.0;
 
 /// Powers of two not below the magnitude of any intermediate result, in units of the product of the maxima.
 const SIZE_2D: f64 = 4.0;
@@ -50,6 +52,8 @@ const SIZE_3D: f64 = 8.0;
 const SIZE_4D: f64 = 32.0;
 const SIZE_CIRCLE: f64 = 16.0;
 const SIZE_SPHERE: f64 = 128.0;
+const SIZE_CROSSINGS: f64 = 128.0;
+const SIZE_SLOPES: f64 = 32.0;
 
 /// The larger of two magnitudes: one instruction, unlike `f64::max`. Of a NaN and a number it gives either.
 #[inline(always)]
@@ -121,6 +125,26 @@ pub(crate) fn insphere(rows: &[[f64; 3]; 4]) -> f64 {
     let lift = (2.0 * m) * (2.0 * m);
     let underflow = UNDERFLOW * lift * m + UNDERFLOW;
     ((SIZE_SPHERE / 4.0 * mx) * my) * mz * lift * (INSPHERE * U / SIZE_SPHERE) + underflow
+}
+
+/// Error bound of [`crate::polynomial::crossings`].
+#[inline(always)]
+pub(crate) fn crossings(rows: &[[f64; 3]; 6]) -> f64 {
+    let [mx, my, mz] = column_maxima(rows);
+    let m = max(max(mx, my), mz);
+    let xy = (SIZE_CROSSINGS * mx) * my;
+    let underflow = UNDERFLOW * m * m * m + UNDERFLOW;
+    xy * mz * xy * (CROSSINGS * U / (SIZE_CROSSINGS * SIZE_CROSSINGS)) + underflow
+}
+
+/// Error bound of [`crate::polynomial::slopes`], of coordinate `k` of the first two.
+#[inline(always)]
+pub(crate) fn slopes(rows: &[[f64; 3]; 5], k: usize) -> f64 {
+    let maxima = column_maxima(rows);
+    let m = max(max(maxima[0], maxima[1]), maxima[2]);
+    let (along, other) = ((SIZE_SLOPES * maxima[0]) * maxima[1], (SIZE_SLOPES * maxima[1 - k]) * maxima[2]);
+    let underflow = UNDERFLOW * m * m + UNDERFLOW;
+    along * other * (SLOPES * U / (SIZE_SLOPES * SIZE_SLOPES)) + underflow
 }
 
 #[cfg(test)]
@@ -247,5 +271,9 @@ pub(crate) mod tests {
         check(polynomial::orient4d::<Bounds>(&[[DIFFERENCE; 4]; 4]), 280, ORIENT4D, SIZE_4D);
         check(polynomial::incircle::<Bounds>(&[[DIFFERENCE; 2]; 3]), 128, INCIRCLE, SIZE_CIRCLE);
         check(polynomial::insphere::<Bounds>(&[[DIFFERENCE; 3]; 4]), 1104, INSPHERE, SIZE_SPHERE);
+        check(polynomial::crossings::<Bounds>(&[[DIFFERENCE; 3]; 6]), 1104, CROSSINGS, SIZE_CROSSINGS);
+        for k in 0..2 {
+            check(polynomial::slopes::<Bounds>(&[[DIFFERENCE; 3]; 5], k), 280, SLOPES, SIZE_SLOPES);
+        }
     }
 }

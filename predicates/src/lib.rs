@@ -35,6 +35,7 @@
 //! | inside a circle, a sphere? | [`incircle`], [`insphere`] |
 //! | how do segments, triangles, boxes, tetrahedra meet? | [`intersection`] |
 //! | the same without ties | [`sos`] |
+//! | the same for a grid moved so that it meets no vertex and no edge | [`moved_grid`] |
 //! | do moving vertices, edges and faces touch during a time step? | [`ccd`] |
 //! | has a small linear system one solution, with which signs? | [`linear`] |
 //! | which stage settled a sign, how often? | [`staged`], [`stats`] |
@@ -64,6 +65,7 @@ mod incircle;
 mod insphere;
 pub mod intersection;
 pub mod linear;
+pub mod moved_grid;
 mod orient2d;
 mod orient3d;
 mod orient4d;

@@ -129,6 +129,41 @@ pub(crate) fn insphere<K: Ring>([a, b, c, d]: &[[K::D1; 3]; 4]) -> K::D5 {
     cd_terms.plus(&ab_terms)
 }
 
+/// The normal of a triangle along the last axis, and the volume of its rows: that normal times the last coordinate at which the
+/// line of the axis through the origin meets its plane.
+#[inline(always)]
+fn plane3<K: Ring>(a: &[K::D1; 3], b: &[K::D1; 3], c: &[K::D1; 3]) -> (K::D2, K::D3) {
+    let bc = minor2::<K>(&b[0], &b[1], &c[0], &c[1]);
+    let ac = minor2::<K>(&a[0], &a[1], &c[0], &c[1]);
+    let ab = minor2::<K>(&a[0], &a[1], &b[0], &b[1]);
+    let volume = expand3::<K>([&a[2], &b[2], &c[2]], &bc, &ac, &ab);
+    (ab.plus(&bc).minus(&ac), volume)
+}
+
+/// Where the last axis meets the plane of the first three rows, less where it meets that of the others, times the
+/// normals of both along the axis.
+#[inline(always)]
+pub(crate) fn crossings<K: Ring>([a, b, c, d, e, f]: &[[K::D1; 3]; 6]) -> K::D5 {
+    let (first, first_volume) = plane3::<K>(a, b, c);
+    let (second, second_volume) = plane3::<K>(d, e, f);
+    second.times(&first_volume).minus(&first.times(&second_volume))
+}
+
+/// How fast the last coordinate of the plane of the first three rows grows with coordinate `k`, less how fast that of the other
+/// two and the origin does, times the normals of both along the last axis.
+#[inline(always)]
+pub(crate) fn slopes<K: Ring>([a, b, c, d, e]: &[[K::D1; 3]; 5], k: usize) -> K::D4 {
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let first = |i: usize, j: usize| {
+        let ab = minor2::<K>(&a[i], &a[j], &b[i], &b[j]);
+        let bc = minor2::<K>(&b[i], &b[j], &c[i], &c[j]);
+        let ac = minor2::<K>(&a[i], &a[j], &c[i], &c[j]);
+        ab.plus(&bc).minus(&ac)
+    };
+    let second = |i: usize, j: usize| minor2::<K>(&d[i], &d[j], &e[i], &e[j]);
+    second(i, j).times(&first(0, 1)).minus(&first(i, j).times(&second(0, 1)))
+}
+
 /// A ring with the products of two values of degree 3.
 pub(crate) trait SixthDegree: Ring<D3: Times<Self::D3, Product = Self::D6>> {
     type D6: Additive;

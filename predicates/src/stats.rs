@@ -16,12 +16,14 @@ pub enum Kind {
     Incircle,
     /// [`insphere`](crate::insphere).
     Insphere,
+    /// [`compare_crossings`](crate::moved_grid::compare_crossings): of the crossings, and of the slopes at a tie.
+    Crossings,
 }
 
 impl Kind {
     /// All kinds, in the order of their discriminants.
-    pub const ALL: [Self; 5] =
-        [Self::Orient2d, Self::Orient3d, Self::Orient4d, Self::Incircle, Self::Insphere];
+    pub const ALL: [Self; 6] =
+        [Self::Orient2d, Self::Orient3d, Self::Orient4d, Self::Incircle, Self::Insphere, Self::Crossings];
 }
 
 #[cfg(feature = "stats")]

@@ -137,6 +137,8 @@ pub(crate) const ORIENT3D: f64 = 29.0;
 pub(crate) const ORIENT4D: f64 = 45.0;
 pub(crate) const INCIRCLE: f64 = 41.0;
 pub(crate) const INSPHERE: f64 = 61.0;
+pub(crate) const CROSSINGS: f64 = 61.0;
+pub(crate) const SLOPES: f64 = 45.0;
 
 /// v = u^2 = 2^-106.
 const V: f64 = f64::EPSILON * f64::EPSILON / 4.0;
@@ -274,6 +276,9 @@ mod tests {
         check(polynomial::orient4d::<Bounds>(&[[d; 4]; 4]), ORIENT4D);
         check(polynomial::incircle::<Bounds>(&[[d; 2]; 3]), INCIRCLE);
         check(polynomial::insphere::<Bounds>(&[[d; 3]; 4]), INSPHERE);
+        check(polynomial::crossings::<Bounds>(&[[d; 3]; 6]), CROSSINGS);
+        check(polynomial::slopes::<Bounds>(&[[d; 3]; 5], 0), SLOPES);
+        check(polynomial::slopes::<Bounds>(&[[d; 3]; 5], 1), SLOPES);
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! polynomial fits into a few machine words, where it is exact. This settles degenerate input (points of a grid,
 //! coplanar faces) as well as nearly degenerate input, at the price of a few dozen multiplications.
 //!
-//! Differences are below 2^62. A minor of two rows is below 2^125 and a sum of three squares below 2^126 (`i128`),
+//! Differences are below 2^62. A minor of two rows is below 2^125 and a sum of three squares or of three minors below 2^127 (`i128`),
 //! a minor of three rows below 2^189 ([`Wide`] of 3 words), the sums of degree 4 and 5 below 2^253 and 2^317
 //! (4 and 5 words), the difference of two products of degree 3 below 2^379 (6 words). The tests recompute these sizes with the polynomials themselves.
 
@@ -266,10 +266,14 @@ mod tests {
         assert!(fits(polynomial::orient4d::<Sizes>(&differences()), 4, 4));
         assert!(fits(polynomial::incircle::<Sizes>(&differences()), 4, 4));
         assert!(fits(polynomial::insphere::<Sizes>(&differences()), 5, 5));
+        assert!(fits(polynomial::crossings::<Sizes>(&differences()), 5, 5));
+        assert!((0..2).all(|k| fits(polynomial::slopes::<Sizes>(&differences(), k), 4, 4)));
         let [a, b, c, d] = &differences();
         assert!(fits(polynomial::patch_side::<Sizes>([a, b, c, d]), 6, 6));
         // The sum of three squares.
         assert!(fits(Size(3.0), 2, 2));
+        // The sum of three minors.
+        assert!(fits(Size(6.0), 2, 2));
     }
 
     fn lattice<const N: usize, const P: usize>(points: [[f64; N]; P]) -> Option<Lattice<N, P>> {

@@ -159,17 +159,23 @@ mod tests {
 
     #[test]
     fn extremes_of_every_polynomial_fit() {
-        // Overflow panics in tests. The largest values are below X * 2^(bits * degree) with X = 72 for insphere
+        // Overflow panics in tests. The largest values are below X * 2^(bits * degree) with X = 72 for insphere and crossings
         // and 24 for the others (the magnitudes of crate::filter).
         assert!(72f64.log2() + 5.0 * f64::from(difference_bits(5)) < 127.0);
         assert!(24f64.log2() + 4.0 * f64::from(difference_bits(4)) < 127.0);
         assert!(2.0 * f64::from(difference_bits(4)) + 1.0 < 63.0 && 2.0 * 24.0 + 2.0 < 63.0);
+        // The sum of three minors.
+        assert!(6f64.log2() + 2.0 * f64::from(difference_bits(4)) < 63.0);
         let d = |bits: i32, negative: bool| Single(if negative { 1 - (1 << bits) } else { (1 << bits) - 1 });
         for signs in 0..1 << 12 {
             let at = |bits, i: usize| d(bits, signs >> i & 1 == 1);
             let row = |bits, i| [at(bits, i), at(bits, i + 1), at(bits, i + 2)];
             let _: Double = polynomial::orient3d::<Small>(&[row(30, 0), row(30, 3), row(30, 6)]);
             let _: Double = polynomial::insphere::<Small>(&[row(24, 0), row(24, 3), row(24, 6), row(24, 9)]);
+            let (a, b, c, d) = (row(24, 0), row(24, 3), row(24, 6), row(24, 9));
+            let _: Double = polynomial::crossings::<Small>(&[a, b, c, d, row(24, 1), row(24, 5)]);
+            let (a, b, c, d) = (row(30, 0), row(30, 3), row(30, 6), row(30, 9));
+            let _: Double = polynomial::slopes::<Small>(&[a, b, c, d, row(30, 1)], 0);
         }
     }
 

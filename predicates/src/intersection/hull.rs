@@ -12,7 +12,7 @@ use crate::{orient2d, orient3d};
 
 /// True when every coordinate is finite: what the unchecked entry points ask first.
 #[inline]
-pub(super) fn all_finite<const N: usize>(points: &[[f64; N]]) -> bool {
+pub(crate) fn all_finite<const N: usize>(points: &[[f64; N]]) -> bool {
     // Without a branch for each coordinate.
     points.as_flattened().iter().fold(true, |finite, x| finite & (x.abs() <= f64::MAX))
 }

@@ -84,5 +84,8 @@ pub use triangle_triangle::{
     Corners, TriangleContact, TriangleTriangle, triangle_triangle, triangles_intersect, try_triangle_triangle,
 };
 
+pub(crate) use hull::all_finite;
+pub(crate) use planar::project;
+
 type P2 = [f64; 2];
 type P3 = [f64; 3];

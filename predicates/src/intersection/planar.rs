@@ -11,7 +11,7 @@ use crate::{Sign, orient2d};
 /// `p` without coordinate `axis`; the others in the order that keeps orientation: the projection of a triangle
 /// has the sign of that component of its normal.
 #[inline]
-pub(super) fn project(p: P3, axis: usize) -> P2 {
+pub(crate) fn project(p: P3, axis: usize) -> P2 {
     match axis {
         0 => [p[1], p[2]],
         1 => [p[2], p[0]],

@@ -4,6 +4,7 @@ use super::*;
 use crate::arithmetic::scaled::power_of_two;
 use crate::incircle::Incircle;
 use crate::insphere::Insphere;
+use crate::moved_grid::{Crossings, Slopes};
 use crate::orient2d::Orient2d;
 use crate::orient3d::Orient3d;
 use crate::orient4d::Orient4d;
@@ -122,6 +123,9 @@ fn stages_agree() {
     check::<Orient4d, 4, 5, 4>(3);
     check::<Incircle, 2, 4, 3>(4);
     check::<Insphere, 3, 5, 4>(5);
+    check::<Crossings, 3, 7, 6>(11);
+    check::<Slopes<0>, 3, 6, 5>(12);
+    check::<Slopes<1>, 3, 6, 5>(13);
 }
 
 /// How many of 1000 inputs each stage settles.
@@ -175,4 +179,7 @@ fn each_stage_settles_its_share() {
     check_shares::<Orient4d, 4, 5, 4>(8);
     check_shares::<Incircle, 2, 4, 3>(9);
     check_shares::<Insphere, 3, 5, 4>(10);
+    check_shares::<Crossings, 3, 7, 6>(14);
+    check_shares::<Slopes<0>, 3, 6, 5>(15);
+    check_shares::<Slopes<1>, 3, 6, 5>(16);
 }
