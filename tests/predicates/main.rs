@@ -12,6 +12,7 @@ mod family;
 mod intersection;
 mod laws;
 mod linear;
+mod moved_grid;
 mod oracle;
 mod parity;
 mod perturbation;

@@ -3,7 +3,7 @@
 use super::node::{side_of_line, side_of_plane};
 use super::{P2, P3};
 use crate::finite::check_finite;
-use crate::intersection::project;
+use crate::intersection::{all_finite, project};
 use crate::{NonFinite, Point, Sign, orient2d};
 
 /// Whether the moved line along `axis` crosses a closed triangle, and from which side: the sign of the component of
@@ -99,8 +99,8 @@ pub(super) fn check_line(argument: usize, line: P2) -> Result<(), NonFinite> {
 }
 
 #[inline]
-fn crossing(axis: usize, line: P2, t: &[P3; 3]) -> Sign {
-    let t = t.map(|p| project(p, axis));
+fn crossing(axis: usize, line: P2, corners: &[P3; 3]) -> Sign {
+    let t = corners.map(|p| project(p, axis));
     for k in 0..2 {
         // The line is at least at the least coordinate, and moves away from it.
         let [a, b, c] = t.map(|p| p[k]);
@@ -114,7 +114,7 @@ fn crossing(axis: usize, line: P2, t: &[P3; 3]) -> Sign {
     // anything: one of the signs is zero, or two are opposite.
     let side = side_of_line(axis, t[0], t[1], line);
     let inside = side == side_of_line(axis, t[1], t[2], line) && side == side_of_line(axis, t[2], t[0], line);
-    if inside { side } else { Sign::Zero }
+    if inside && all_finite(corners) { side } else { Sign::Zero }
 }
 
 #[inline]

@@ -9,11 +9,20 @@ use rug::Integer;
 pub fn clip_to_box<const D: usize>(points: &[[f64; D]], min: [f64; D], max: [f64; D]) -> Vec<Vec<Integer>> {
     let mut lifted = lift(&[points, &[min, max]].concat());
     let bounds = lifted.split_off(points.len());
+    clip_to_box_of_integers(&lifted, &bounds[0], &bounds[1])
+}
+
+/// [`clip_to_box`] of lifted coordinates.
+pub(super) fn clip_to_box_of_integers<const D: usize>(
+    points: &[[Integer; D]],
+    min: &[Integer; D],
+    max: &[Integer; D],
+) -> Vec<Vec<Integer>> {
     let mut polygon: Vec<Vec<Integer>> =
-        lifted.into_iter().map(|p| p.into_iter().chain([Integer::from(1)]).collect()).collect();
+        points.iter().map(|p| p.iter().cloned().chain([Integer::from(1)]).collect()).collect();
     for axis in 0..D {
-        polygon = clip(&polygon, |p| &p[axis] - Integer::from(&bounds[0][axis] * &p[D]));
-        polygon = clip(&polygon, |p| Integer::from(&bounds[1][axis] * &p[D]) - &p[axis]);
+        polygon = clip(&polygon, |p| &p[axis] - Integer::from(&min[axis] * &p[D]));
+        polygon = clip(&polygon, |p| Integer::from(&max[axis] * &p[D]) - &p[axis]);
     }
     polygon
 }
