@@ -86,6 +86,7 @@ pub use triangle_triangle::{
 
 pub(crate) use hull::all_finite;
 pub(crate) use planar::project;
+pub(crate) use plane::sides;
 
 type P2 = [f64; 2];
 type P3 = [f64; 3];

@@ -10,7 +10,7 @@ use crate::{Sign, Stage, filter, orient3d, stats};
 
 /// `orient3d(plane[0], plane[1], plane[2], p)` for each `p`.
 #[inline(always)]
-pub(super) fn sides<const K: usize>(plane: &[P3; 3], points: &[P3; K]) -> [Sign; K] {
+pub(crate) fn sides<const K: usize>(plane: &[P3; 3], points: &[P3; K]) -> [Sign; K] {
     let [o, a, b] = plane;
     points.map(|p| {
         let columns: [P3; 3] = core::array::from_fn(|k| [a[k] - o[k], b[k] - o[k], p[k] - o[k]]);

@@ -5,7 +5,7 @@
 //! support plane touches anything after the move, so that each test is a sign that is not zero. Where a triangle is
 //! degenerate, the tests that have no direction left separate nothing, and the others are those of the segment or point that it is.
 
-use super::node::{side_of_line, side_of_plane};
+use super::node::{copied, rounded_sides, side_of_line, sides_of_plane};
 use super::{P2, P3};
 use crate::finite::check_finite;
 use crate::intersection::{all_finite, project};
@@ -95,7 +95,7 @@ pub fn try_moved_box_meets_segment(
 fn meets_triangle(min: &P3, max: &P3, t: &[P3; 3]) -> bool {
     match by_boxes(min, max, t) {
         Some(answer) => answer,
-        None => triangle_passes(min, max, t),
+        None => triangle_passes(&copied(&[*min, *max]), &copied(t)),
     }
 }
 
@@ -103,10 +103,7 @@ fn meets_triangle(min: &P3, max: &P3, t: &[P3; 3]) -> bool {
 fn meets_segment(min: &P3, max: &P3, s: &[P3; 2]) -> bool {
     match by_boxes(min, max, s) {
         Some(answer) => answer,
-        None => (0..3).all(|k| {
-            let [u, v] = s.map(|p| project(p, k));
-            !line_separates(k, u, v, project(*min, k), project(*max, k))
-        }),
+        None => segment_passes(&copied(&[*min, *max]), &copied(s)),
     }
 }
 
@@ -114,66 +111,91 @@ fn meets_segment(min: &P3, max: &P3, s: &[P3; 2]) -> bool {
 #[inline(always)]
 fn by_boxes<const P: usize>(min: &P3, max: &P3, points: &[P3; P]) -> Option<bool> {
     let mut apart = false;
-    let mut inside = [true; P];
     for k in 0..3 {
-        let (mut above, mut below) = (true, true);
-        for (p, inside) in points.iter().zip(&mut inside) {
-            // After the move `min` is greater than itself, and `max` too.
-            let (over_min, over_max) = (p[k] > min[k], p[k] > max[k]);
-            below &= !over_min;
-            above &= over_max;
-            *inside &= over_min & !over_max;
+        let (mut low, mut high) = (points[0][k], points[0][k]);
+        for p in &points[1..] {
+            low = if p[k] < low { p[k] } else { low };
+            high = if p[k] > high { p[k] } else { high };
         }
-        apart |= above | below | (min[k] > max[k]);
+        // After the move `min` is greater than it was, and `max` too.
+        apart |= (high <= min[k]) | (low > max[k]) | (min[k] > max[k]);
     }
     if apart || !all_finite(points) || !all_finite(&[*min, *max]) {
         return Some(false);
     }
-    inside.iter().any(|&inside| inside).then_some(true)
+    let inside = |p: &P3| (0..3).fold(true, |inside, k| inside & (p[k] > min[k]) & (p[k] <= max[k]));
+    points.iter().fold(false, |any, p| any | inside(p)).then_some(true)
 }
 
 /// Whether none of the directions of the triangle separates it from the box.
 #[inline(never)]
-fn triangle_passes(min: &P3, max: &P3, t: &[P3; 3]) -> bool {
-    let mut normal = [Sign::Zero; 3];
-    for (k, along) in normal.iter_mut().enumerate() {
-        let t = t.map(|p| project(p, k));
-        *along = orient2d(t[0], t[1], t[2]);
-        let (min, max) = (project(*min, k), project(*max, k));
-        if (0..3).any(|i| edge_separates(k, *along, t[i], t[(i + 1) % 3], &min, &max)) {
-            return false;
+fn triangle_passes([min, max]: &[P3; 2], t: &[P3; 3]) -> bool {
+    // With differences to the first corner, as the sides have them.
+    let normal: [Sign; 3] =
+        core::array::from_fn(|k| orient2d(project(t[1], k), project(t[2], k), project(t[0], k)));
+    let ends = [corner(normal, min, max), corner(normal.map(|s| -s), min, max)];
+    // Negative where the normal points to. Collinear corners have no side.
+    let [high, low] = sides_of_plane(t, &ends);
+    if high == Sign::Positive || low == Sign::Negative {
+        return false;
+    }
+    let mut certain = true;
+    for (k, &orientation) in normal.iter().enumerate() {
+        match rounded_sides(&outer_corners(k, orientation, min, max, t)) {
+            [_, _, true] => return false,
+            [all, ..] => certain &= all,
         }
     }
-    // Negative where the normal points to. Collinear corners have no side.
-    side_of_plane(t, corner(normal, min, max)) != Sign::Positive
-        && side_of_plane(t, corner(normal.map(|s| -s), min, max)) != Sign::Negative
+    certain || !edges_separate(&normal, min, max, t)
+}
+
+/// Whether one of the nine edge directions separates a triangle from a box.
+#[cold]
+#[inline(never)]
+fn edges_separate(normal: &[Sign; 3], min: &P3, max: &P3, t: &[P3; 3]) -> bool {
+    (0..3).any(|k| {
+        let edges = outer_corners(k, normal[k], min, max, t);
+        edges.iter().any(|&[u, v, p]| side_of_line(k, u, v, p) == Sign::Negative)
+    })
+}
+
+/// The edges of a triangle in the projection along an axis, in the order that has the triangle on the left, each with the
+/// corner of the box that is the furthest on that side. The edge separates them if this corner is on the right.
+///
+/// A triangle that is seen edge-on has edges that run both ways along one line, so that the left sides of
+/// all are both sides of it.
+#[inline(always)]
+fn outer_corners(axis: usize, orientation: Sign, min: &P3, max: &P3, t: &[P3; 3]) -> [[P2; 3]; 3] {
+    let [a, b, c] = t.map(|p| project(p, axis));
+    let (b, c) = if orientation == Sign::Negative { (c, b) } else { (b, c) };
+    let (min, max) = (project(*min, axis), project(*max, axis));
+    [[a, b], [b, c], [c, a]].map(|[u, v]| [u, v, left_corner(u, v, min, max)])
+}
+
+/// Whether none of the directions of the segment separates it from the box.
+#[inline(never)]
+fn segment_passes([min, max]: &[P3; 2], s: &[P3; 2]) -> bool {
+    (0..3).all(|k| {
+        let [u, v] = s.map(|p| project(p, k));
+        !line_separates(k, u, v, project(*min, k), project(*max, k))
+    })
 }
 
 /// The corner of the box that is extreme in a direction with these signs.
 #[inline(always)]
-fn corner<const N: usize>(direction: [Sign; N], min: &[f64; N], max: &[f64; N]) -> [f64; N] {
+fn corner(direction: [Sign; 3], min: &P3, max: &P3) -> P3 {
     core::array::from_fn(|k| if direction[k] == Sign::Negative { min[k] } else { max[k] })
 }
 
-/// Whether, in the projection along an axis, the line of an edge has the moved box on one side and the triangle, of this
-/// orientation, on the other.
+/// The corner of a rectangle that is the furthest to the left of a line. The left normal is `(u - v)[1], (v - u)[0]`.
 #[inline(always)]
-fn edge_separates(axis: usize, orientation: Sign, u: P2, v: P2, min: &P2, max: &P2) -> bool {
-    // The left normal of the edge.
-    let left = [Sign::of_difference(u[1], v[1]), Sign::of_difference(v[0], u[0])];
-    // The triangle lies on the left or on the right. If it is seen edge-on, its edges run both ways along one
-    // line, so that testing the left of each tests both sides.
-    if orientation == Sign::Negative {
-        side_of_line(axis, u, v, corner(left.map(|s| -s), min, max)) == Sign::Positive
-    } else {
-        side_of_line(axis, u, v, corner(left, min, max)) == Sign::Negative
-    }
+fn left_corner(u: P2, v: P2, min: P2, max: P2) -> P2 {
+    [if u[1] < v[1] { min[0] } else { max[0] }, if v[0] < u[0] { min[1] } else { max[1] }]
 }
 
 /// Whether, in the projection along an axis, a line has the moved box on one side. One of no direction has not.
 #[inline(always)]
 fn line_separates(axis: usize, u: P2, v: P2, min: P2, max: P2) -> bool {
-    let left = [Sign::of_difference(u[1], v[1]), Sign::of_difference(v[0], u[0])];
-    side_of_line(axis, u, v, corner(left, &min, &max)) == Sign::Negative
-        || side_of_line(axis, u, v, corner(left.map(|s| -s), &min, &max)) == Sign::Positive
+    side_of_line(axis, u, v, left_corner(u, v, min, max)) == Sign::Negative
+        || side_of_line(axis, u, v, left_corner(v, u, min, max)) == Sign::Positive
 }

@@ -1,6 +1,6 @@
 //! A line of the moved grid against a triangle.
 
-use super::node::{side_of_line, side_of_plane};
+use super::node::{copied, rounded_sides, side_of_line, side_of_plane};
 use super::{P2, P3};
 use crate::finite::check_finite;
 use crate::intersection::{all_finite, project};
@@ -110,6 +110,24 @@ fn crossing(axis: usize, line: P2, corners: &[P3; 3]) -> Sign {
             return Sign::Zero;
         }
     }
+    let edges = [[t[0], t[1], line], [t[1], t[2], line], [t[2], t[0], line]];
+    match rounded_sides(&edges) {
+        [_, true, true] => Sign::Zero,
+        [true, positive, _] if all_finite(corners) => {
+            if positive {
+                Sign::Positive
+            } else {
+                Sign::Negative
+            }
+        }
+        _ => crossing_exactly(axis, line, &copied(corners)),
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn crossing_exactly(axis: usize, line: P2, corners: &[P3; 3]) -> Sign {
+    let t = corners.map(|p| project(p, axis));
     // On one side of all three edges, hence inside. If the projection is degenerate, they do not run round
     // anything: one of the signs is zero, or two are opposite.
     let side = side_of_line(axis, t[0], t[1], line);

@@ -2,8 +2,9 @@
 
 use super::{P2, P3};
 use crate::finite::check_finite;
-use crate::intersection::{all_finite, project};
-use crate::{NonFinite, Point, Sign, orient2d, orient3d};
+use crate::intersection::{all_finite, project, sides};
+use crate::polynomial::{self, Rounded};
+use crate::{NonFinite, Point, Sign, Stage, filter, orient2d, orient3d, stats};
 
 /// [`orient3d`] of a plane through `a`, `b`, `c` and a moved node: where the unmoved node lies on the plane, the sign
 /// is that of the side to which the move takes it.
@@ -46,10 +47,29 @@ pub fn try_orient3d_moved(
 }
 
 /// [`orient3d_moved`] of a triangle.
-#[inline]
+#[inline(always)]
 pub(super) fn side_of_plane(t: &[P3; 3], node: P3) -> Sign {
     let plain = orient3d(t[0], t[1], t[2], node);
-    if plain.is_zero() { side_to_which_the_node_moves(t, node) } else { plain }
+    if plain.is_zero() { side_to_which_the_node_moves(&copied(t), node) } else { plain }
+}
+
+/// [`orient3d_moved`] of a triangle and several nodes.
+#[inline(always)]
+pub(super) fn sides_of_plane<const K: usize>(t: &[P3; 3], nodes: &[P3; K]) -> [Sign; K] {
+    let mut sides = sides(t, nodes);
+    for (side, &node) in sides.iter_mut().zip(nodes) {
+        if side.is_zero() {
+            *side = side_to_which_the_node_moves(&copied(t), node);
+        }
+    }
+    sides
+}
+
+/// A fresh array, to be made on the slow path only: passing the points on would keep those of the fast path in memory instead of
+/// registers.
+#[inline(always)]
+pub(super) fn copied<const P: usize>(points: &[P3; P]) -> [P3; P] {
+    core::array::from_fn(|i| core::array::from_fn(|j| points[i][j]))
 }
 
 /// The determinant is `-n . (node - a)`, with the normal `n = (b - a) x (c - a)`.
@@ -69,6 +89,26 @@ fn side_to_which_the_node_moves(t: &[P3; 3], node: P3) -> Sign {
 pub(super) fn side_of_line(axis: usize, u: P2, v: P2, p: P2) -> Sign {
     let plain = orient2d(u, v, p);
     if plain.is_zero() { side_to_which_the_point_moves(axis, u, v, p) } else { plain }
+}
+
+/// The sides of a moved point to several lines as far as rounded arithmetic tells them: whether each is
+/// certain, whether one is certainly positive, whether one is certainly negative. Without a branch for each line.
+#[inline(always)]
+pub(super) fn rounded_sides<const E: usize>(lines: &[[P2; 3]; E]) -> [bool; 3] {
+    let (mut certain, mut positive, mut negative) = (true, false, false);
+    for [u, v, p] in lines {
+        let rows = [[u[0] - p[0], u[1] - p[1]], [v[0] - p[0], v[1] - p[1]]];
+        let (value, error) = (polynomial::orient2d::<Rounded>(&rows), filter::orient2d(&rows));
+        // Neither if the bound is not finite.
+        let (above, below) = (value > error, value < -error);
+        certain &= above | below;
+        positive |= above;
+        negative |= below;
+        if above | below {
+            stats::count(stats::Kind::Orient2d, Stage::Filter);
+        }
+    }
+    [certain, positive, negative]
 }
 
 /// The determinant is `(v - u) x (p - u)`.

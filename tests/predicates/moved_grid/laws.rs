@@ -93,15 +93,15 @@ fn exactly_one_triangle_around_a_vertex_or_an_edge_is_crossed() {
 #[test]
 fn order_of_corners() {
     on_every_kind::<3, 8>(300, &[], |[a, b, c, d, e, f, q, r]| {
-        for axis in 0..3 {
+        for (axis, node) in r.into_iter().enumerate() {
             let line = line_through(axis, q);
             let sign = axis_line_crossing(axis, line, [a, b, c]);
             let order = compare_crossings(axis, line, [a, b, c], [d, e, f]);
-            let precedes = crossing_precedes(axis, line, [a, b, c], r[axis]);
+            let precedes = crossing_precedes(axis, line, [a, b, c], node);
             for (t, turned) in [([b, c, a], sign), ([b, a, c], -sign)] {
                 prop_assert_eq!(axis_line_crossing(axis, line, t), turned);
                 prop_assert_eq!(compare_crossings(axis, line, t, [d, e, f]), order);
-                prop_assert_eq!(crossing_precedes(axis, line, t, r[axis]), precedes);
+                prop_assert_eq!(crossing_precedes(axis, line, t, node), precedes);
             }
             prop_assert_eq!(compare_crossings(axis, line, [f, e, d], [a, b, c]), order.reverse());
             prop_assert_eq!(compare_crossings(axis, line, [a, b, c], [c, b, a]), Ordering::Equal);
