@@ -18,10 +18,10 @@
 //! [`crate::polynomial`] step by step this gives, as the tests recompute with the same text,
 //!
 //! ```text
-//! orient2d 8u   orient3d 46u   orient4d 280u   incircle 128u   insphere 1104u   (to first order)
+//! orient2d 8u   orient3d 46u   orient4d 280u   incircle 128u   insphere 1104u   crossings 1104u   slopes 280u
 //! ```
 //!
-//! times the product of the maxima. These are larger than bounds by the permanent \[Shewchuk97\], by a factor of
+//! to first order, times the product of the maxima. These are larger than bounds by the permanent \[Shewchuk97\], by a factor of
 //! two or three for points without special position, and cost half as much.
 //!
 //! **Overflow.** A filter forms the product of the maxima times a constant that makes it at least as large as

@@ -1,6 +1,6 @@
 //! Integers of one or two machine words: points of a coarse grid.
 //!
-//! When the coordinates are integers of at most 29 bits (23 for `insphere`) in some common unit, their differences
+//! When the coordinates are integers of at most 29 bits (23 for degree 5) in some common unit, their differences
 //! have one bit more, a value of degree 1 or 2 fits an `i64` and one of degree 3 to 5 an `i128`. The product of two
 //! of degree 3 is a [`Wide`] of 4 words.
 

@@ -102,7 +102,7 @@ pub(super) fn check_line(argument: usize, line: P2) -> Result<(), NonFinite> {
 fn crossing(axis: usize, line: P2, corners: &[P3; 3]) -> Sign {
     let t = corners.map(|p| project(p, axis));
     for k in 0..2 {
-        // The line is at least at the least coordinate, and moves away from it.
+        // After the move the line is beyond every corner that it was at.
         let [a, b, c] = t.map(|p| p[k]);
         let behind = (a > line[k]) & (b > line[k]) & (c > line[k]);
         let ahead = (a <= line[k]) & (b <= line[k]) & (c <= line[k]);

@@ -13,7 +13,7 @@ use welter_predicates::moved_grid::{
 
 #[test]
 fn planes_and_moved_nodes() {
-    on_every_kind::<3, 4>(1500, &["clear", "tied", "collinear"], |[a, b, c, node]| {
+    on_every_kind::<3, 4>(1000, &["clear", "tied", "collinear"], |[a, b, c, node]| {
         let expected = moved_orient(&[a, b, c], node);
         prop_assert_eq!(i32::from(orient3d_moved(a, b, c, node) as i8), expected);
         let plain = exact::orient(&[a, b, c, node]);
@@ -30,7 +30,7 @@ fn planes_and_moved_nodes() {
 
 #[test]
 fn lines_and_triangles() {
-    on_every_kind::<3, 7>(200, &["none", "one", "two", "one plane"], |[a, b, c, d, e, f, p]| {
+    on_every_kind::<3, 7>(120, &["none", "one", "two", "one plane"], |[a, b, c, d, e, f, p]| {
         // Two that have nothing in common, and two that share an edge and a corner with the first.
         let triangles = [[a, b, c], [d, e, f], [b, a, f], [a, d, e]];
         let mut seen = Seen::None;
@@ -129,7 +129,7 @@ fn crossings_that_coincide_before_the_move() {
 
 #[test]
 fn triangles_and_boxes() {
-    on_every_kind::<3, 5>(800, &["apart", "meet"], |[a, b, c, q, r]| {
+    on_every_kind::<3, 5>(500, &["apart", "meet"], |[a, b, c, q, r]| {
         let (min, max) = sorted(q, r);
         // Most boxes here are empty.
         prop_assert_eq!(moved_box_meets_triangle(q, r, [a, b, c]), moved_box_meets(q, r, &[a, b, c]));
