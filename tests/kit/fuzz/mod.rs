@@ -9,6 +9,7 @@ mod intersections;
 mod isosurfaces;
 mod linear;
 mod meshes;
+mod moved;
 mod parities;
 mod patches;
 mod perturbation;
@@ -25,6 +26,7 @@ pub use intersections::{boxes, simplices};
 pub use isosurfaces::isosurfaces;
 pub use linear::{agrees, linear_systems};
 pub use meshes::{read_obj, read_off, read_ply, read_stl, self_intersecting};
+pub use moved::moved_grid;
 pub use parities::root_parities;
 pub use patches::patch_parity;
 pub use perturbation::perturbed;
@@ -42,6 +44,7 @@ pub const BODIES: &[(&str, Body)] = &[
     ("in_spheres", in_spheres),
     ("isosurfaces", isosurfaces),
     ("linear_systems", linear_systems),
+    ("moved_grid", moved_grid),
     ("orientations", orientations),
     ("patch_parity", patch_parity),
     ("perturbed", perturbed),
