@@ -25,8 +25,8 @@ use welter_predicates::intersection::triangle_contains_3d;
 use welter_predicates::{Sign, orient2d, orient3d};
 
 use super::slabs::Slabs;
-use crate::grid::Grid3;
-use crate::spatial::{Box3, Winding};
+use crate::grid::{Grid3, first_at, first_where};
+use crate::spatial::{Box3, Winding, chord};
 use crate::surface::{ClosedOrientedMesh, TriId, TriMesh};
 use crate::{Cancelled, DVec3, Monitor};
 
@@ -135,7 +135,7 @@ impl Slab<'_> {
         let projected = orient2d(yz(corners[0]), yz(corners[1]), yz(corners[2]));
         for k in z0..z1 {
             let z = self.grid.coordinate(2, k);
-            let [low, high] = chord(corners, &around, z);
+            let [low, high] = chord(corners, &around, [1, 2], z);
             let Some([y0, y1]) = nodes_within(self.grid, 1, low, high) else { continue };
             for j in y0..y1 {
                 let row = Row { y: self.grid.coordinate(1, j), z, j, k };
@@ -225,63 +225,6 @@ pub(super) fn nodes_within(grid: &Grid3, axis: usize, low: f64, high: f64) -> Op
     let end = first_at(grid, axis, |x| x > high, high);
     let none = if axis == 0 { end == 0 } else { first >= end };
     (!none).then_some([first, end])
-}
-
-/// The first node along an axis whose coordinate `reached` something about `value`; the number of nodes if there is none.
-fn first_at(grid: &Grid3, axis: usize, reached: impl Fn(f64) -> bool, value: f64) -> u32 {
-    let guess = (value - grid.origin()[axis]) / grid.spacing();
-    let end = grid.nodes()[axis];
-    first_where(0, end, guess.clamp(0.0, f64::from(end)) as u32, |i| reached(grid.coordinate(axis, i)))
-}
-
-/// The first number of `low..high` that `is` so, for a property that all numbers have from some on; `high` if none has it.
-/// Steps away from the guess that double, then bisection.
-fn first_where(low: u32, high: u32, guess: u32, is: impl Fn(u32) -> bool) -> u32 {
-    let (mut low, mut high) = (low, high);
-    let mut step = 1;
-    let mut probe = guess.max(low);
-    while low < high {
-        probe = probe.min(high - 1);
-        if is(probe) {
-            high = probe;
-            probe = probe.saturating_sub(step).max(low);
-        } else {
-            low = probe + 1;
-            probe = probe.saturating_add(step);
-        }
-        step = step.saturating_mul(2);
-        if step > 4 {
-            probe = low + (high - low) / 2;
-        }
-    }
-    low
-}
-
-/// Bounds of the y of a triangle at a height; within those of its box.
-///
-/// On an edge, `a.y + t (b.y - a.y)` with `t` of [0, 1]: the quotient `t` errs by at most 4 u, the
-/// product by 6 u of the difference, the sum by one u of itself; 16 u of the largest magnitude twice over is more.
-fn chord(corners: [DVec3; 3], around: &Box3, z: f64) -> [f64; 2] {
-    const SLACK: f64 = 1.0 / (1u64 << 48) as f64;
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for e in 0..3 {
-        let (a, b) = (corners[e], corners[(e + 1) % 3]);
-        if a.z.min(b.z) > z || a.z.max(b.z) < z {
-            continue;
-        }
-        if a.z == b.z {
-            (low, high) = (low.min(a.y.min(b.y)), high.max(a.y.max(b.y)));
-            continue;
-        }
-        let difference = b - a;
-        if !difference.is_finite() {
-            return [around.min.y, around.max.y];
-        }
-        let y = a.y + ((z - a.z) / difference.z).clamp(0.0, 1.0) * difference.y;
-        (low, high) = (low.min(y), high.max(y));
-    }
-    let slack = SLACK * around.min.y.abs().max(around.max.y.abs()) + f64::MIN_POSITIVE;
-    [(low - slack).max(around.min.y), (high + slack).min(around.max.y)]
 }
 
 /// About where a row meets the plane of a triangle, as the number of a node.

@@ -15,7 +15,9 @@
 mod error;
 mod lattice;
 mod samples;
+mod search;
 
 pub use error::GridError;
 pub use lattice::{Grid, Grid2, Grid3, MAX_CELLS_ALONG_AXIS, MAX_NODES};
 pub use samples::{NotANumber, Samples};
+pub(crate) use search::{first_at, first_where, nodes_between};

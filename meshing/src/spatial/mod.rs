@@ -14,6 +14,7 @@
 
 mod box3;
 mod bvh;
+mod chord;
 pub(crate) mod closest;
 mod descent;
 pub(crate) mod frame;
@@ -25,6 +26,7 @@ mod winding;
 
 pub use box3::Box3;
 pub use bvh::{Bvh, RefitError};
+pub(crate) use chord::chord;
 pub use closest::ClosestPoint;
 pub use self_intersection::{Sharing, self_intersections};
 pub use tree::BoxTree;

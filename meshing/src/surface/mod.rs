@@ -10,13 +10,13 @@
 
 mod closed_oriented;
 mod duplicates;
-mod edges;
+pub(crate) mod edges;
 mod embedded;
 mod ids;
 mod list;
 pub mod measure;
 mod soup;
-mod topology;
+pub(crate) mod topology;
 mod tri_mesh;
 
 pub use closed_oriented::{ClosedOrientedDefects, ClosedOrientedError, ClosedOrientedMesh, EdgeDefect};

@@ -26,7 +26,7 @@
 mod boundary;
 mod components;
 mod fans;
-mod union_find;
+pub(crate) mod union_find;
 
 pub use boundary::BoundaryLoop;
 pub use components::Component;

@@ -1,0 +1,121 @@
+//! The driver of the method: [`mesh_on_grid`], whose lines are the stages of \[Gagniere22\] Ch. 3 on one grid.
+
+use super::assembly::{Assembled, assemble};
+use super::cells::CellHexahedra;
+use super::crossings::Crossings;
+use super::error::{Place, Trouble};
+use super::extension::Extension;
+use super::frame::Cut;
+use super::gluing::Outside;
+use super::hosts::Hosts;
+use super::pairing::Pairing;
+use super::pieces::{Pieces, Regions};
+use super::precursors::precursors;
+use super::sheets::Sheets;
+use super::walls::walls;
+use crate::grid::Grid3;
+use crate::surface::TriMesh;
+use crate::{Cancelled, DVec3, Monitor};
+
+/// A mesh on one grid.
+pub(super) struct OnGrid {
+    pub(super) assembled: Assembled,
+    pub(super) hosts: Hosts,
+    pub(super) windings: Vec<i32>,
+    pub(super) ambiguous: bool,
+}
+
+/// What went wrong, and where.
+pub(super) struct Stopped {
+    pub(super) trouble: Trouble,
+    pub(super) place: Place,
+}
+
+/// Meshes the volume of a surface on the cells of a grid, or says what went wrong.
+pub(super) fn mesh_on_grid(
+    mesh: &TriMesh,
+    pairing: &Pairing,
+    grid: &Grid3,
+    monitor: &Monitor<'_>,
+) -> Result<OnGrid, Stopped> {
+    let nowhere = |trouble| Stopped { trouble, place: place_of_cell(grid, [0; 3]) };
+    let (extension, crossings) = cut(mesh, pairing, grid, monitor).map_err(|c| nowhere(c.into()))?;
+    let cut = Cut { grid, crossings: &crossings, extension: &extension };
+    let regions = regions(&cut, monitor).map_err(|c| nowhere(c.into()))?;
+    sew(mesh, &cut, &regions, monitor)
+        .map_err(|trouble| Stopped { trouble, place: place_of(trouble, grid, &regions) })
+}
+
+/// Where the surface meets the cells, and where it cuts their edges.
+fn cut(
+    mesh: &TriMesh,
+    pairing: &Pairing,
+    grid: &Grid3,
+    monitor: &Monitor<'_>,
+) -> Result<(Extension, Crossings), Cancelled> {
+    let precursors = precursors(mesh, grid, monitor)?;
+    let extension = Extension::new(mesh, pairing, grid, precursors, monitor)?;
+    Ok((extension, Crossings::new(mesh, grid, monitor)?))
+}
+
+/// The regions of the grid.
+fn regions<'a>(cut: &Cut<'a>, monitor: &Monitor<'_>) -> Result<Regions<'a>, Cancelled> {
+    let mut pieces = Pieces::new(cut.grid, cut.crossings);
+    for [a, b] in walls(cut, &pieces, monitor)? {
+        pieces.unite(a, b);
+    }
+    Ok(pieces.regions())
+}
+
+/// From regions to the mesh.
+fn sew(
+    mesh: &TriMesh,
+    cut: &Cut<'_>,
+    regions: &Regions<'_>,
+    monitor: &Monitor<'_>,
+) -> Result<OnGrid, Trouble> {
+    if let Some((region, &winding)) = (0..).zip(regions.windings()).find(|&(_, &winding)| winding < 0) {
+        return Err(Trouble::Negative { region, winding });
+    }
+    let sheets = Sheets::new(cut, regions, monitor)?;
+    let cells = CellHexahedra::new(cut, regions, &sheets, monitor)?;
+    let outside = Outside::new(cut, &cells, monitor)?;
+    let assembled = assemble(*cut, regions, &cells, &outside, monitor)?;
+    let became = |h: u32| assembled.of_surface[cells.of_extension(h) as usize];
+    let hosts = Hosts::new(mesh, cut.grid, cut.extension, became);
+    Ok(OnGrid { assembled, hosts, windings: regions.windings().to_vec(), ambiguous: sheets.ambiguous() })
+}
+
+/// Where something went wrong.
+fn place_of(trouble: Trouble, grid: &Grid3, regions: &Regions<'_>) -> Place {
+    match trouble {
+        Trouble::Negative { region, .. }
+        | Trouble::TooManyCopies { region, .. }
+        | Trouble::Contradiction { region, .. } => place_of_region(grid, regions, region),
+        Trouble::Cell { cell, .. } => place_of_cell(grid, cell),
+        Trouble::TooLarge { .. } | Trouble::Cancelled(_) => place_of_cell(grid, [0; 3]),
+    }
+}
+
+fn place_of_cell(grid: &Grid3, cell: [u32; 3]) -> Place {
+    let corner = |index: [u32; 3]| DVec3::from_array(grid.node(index));
+    Place { min: corner(cell), max: corner(cell.map(|i| i + 1)), nodes: 0 }
+}
+
+/// The box around the nodes of a region, and around the edges on which its pieces lie if it has no nodes.
+fn place_of_region(grid: &Grid3, regions: &Regions<'_>, region: u32) -> Place {
+    let mut place = Place { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY, nodes: 0 };
+    let mut include = |node: [u32; 3]| {
+        let p = DVec3::from_array(grid.node(node));
+        (place.min, place.max) = (place.min.min(p), place.max.max(p));
+    };
+    let mut nodes = 0;
+    regions.pieces.for_each_piece(grid, |piece, first, last, count| {
+        if regions.of(piece) == region {
+            include(first);
+            include(last);
+            nodes += count;
+        }
+    });
+    Place { nodes, ..place }
+}

@@ -1,0 +1,237 @@
+//! What the crossings leave of the edges of the grid: [`Pieces`], and the regions that they make up.
+//!
+//! # What it computes
+//! The surface cuts the network of the grid's nodes and edges into pieces: a *run* of nodes along x between two crossings (it may hold
+//! no node, if both are on one edge), and a *stretch* of an edge along y or z between two crossings. Each has a winding number, exactly.
+//! Pieces that hang together through edges that the surface does not cut are one region.
+//!
+//! # Method
+//! Winding numbers are sums of crossings along rows. Runs of neighbouring rows are one region if an edge between them is not cut: the
+//! lists of both rows and of the cuts between them are walked side by side; union-find \[Tarjan75\].
+//! Complexity: O(rows + crossings), whatever the number of nodes.
+
+use super::crossings::{Crossing, Crossings};
+use super::rows::Rows;
+use crate::grid::Grid3;
+use crate::surface::topology::union_find::UnionFind;
+
+/// No stretch begins behind that crossing.
+const NONE: u32 = u32::MAX;
+
+/// Pieces of the grid's edges. Runs come first by number, row after row and along each.
+pub(super) struct Pieces<'a> {
+    crossings: &'a Crossings,
+    windings: Vec<i32>,
+    /// For each crossing along y and z the stretch behind it, if another crossing of the same edge follows.
+    stretches: [Vec<u32>; 2],
+    sets: UnionFind,
+}
+
+impl<'a> Pieces<'a> {
+    pub(super) fn new(grid: &Grid3, crossings: &'a Crossings) -> Self {
+        let mut windings = run_windings(&crossings.axes[0]);
+        let mut pieces = Self {
+            crossings,
+            windings: Vec::new(),
+            stretches: [Vec::new(), Vec::new()],
+            sets: UnionFind::new(0),
+        };
+        let mut stretches = [Vec::new(), Vec::new()];
+        for axis in [1, 2] {
+            stretches[axis - 1] = pieces.list_stretches(axis, &mut windings);
+        }
+        pieces.stretches = stretches;
+        pieces.sets = UnionFind::new(windings.len());
+        pieces.windings = windings;
+        pieces.join_rows(grid);
+        pieces
+    }
+
+    /// Numbers the stretches along an axis behind the pieces so far.
+    fn list_stretches(&self, axis: usize, windings: &mut Vec<i32>) -> Vec<u32> {
+        let rows = &self.crossings.axes[axis];
+        let mut behind = vec![NONE; rows.items().len()];
+        for row in 0..rows.count() {
+            let range = rows.range(row);
+            for q in range.clone() {
+                let here = rows.items()[q];
+                if q + 1 == range.end || rows.items()[q + 1].i != here.i {
+                    continue;
+                }
+                let before = if q > range.start && rows.items()[q - 1].i == here.i {
+                    windings[behind[q - 1] as usize]
+                } else {
+                    windings[self.run(row, here.i) as usize]
+                };
+                behind[q] = windings.len() as u32;
+                windings.push(before + step(here));
+            }
+        }
+        behind
+    }
+
+    /// Unites runs of neighbouring rows.
+    fn join_rows(&mut self, grid: &Grid3) {
+        let [nx, ny, nz] = grid.nodes();
+        for k in 0..nz as usize {
+            for j in 0..ny as usize {
+                let row = j + ny as usize * k;
+                if j + 1 < ny as usize {
+                    self.join(row, row + 1, self.crossings.axes[1].row(row), nx);
+                }
+                if k + 1 < nz as usize {
+                    self.join(row, row + ny as usize, self.crossings.axes[2].row(row), nx);
+                }
+            }
+        }
+    }
+
+    /// Unites the runs of two rows where an edge between them is not among those that are cut.
+    fn join(&mut self, row: usize, other: usize, cuts: &[Crossing], nx: u32) {
+        let [of_row, of_other] = [row, other].map(|row| self.crossings.axes[0].row(row));
+        let (mut a, mut b, mut cut, mut begin) = (0, 0, 0, 0);
+        while begin < nx {
+            let end_of = |list: &[Crossing], run: usize| list.get(run).map_or(nx, |crossing| crossing.i + 1);
+            let (end_a, end_b) = (end_of(of_row, a), end_of(of_other, b));
+            let end = end_a.min(end_b);
+            let mut whole = end - begin;
+            while cut < cuts.len() && cuts[cut].i < end {
+                let i = cuts[cut].i;
+                whole -= 1;
+                while cut < cuts.len() && cuts[cut].i == i {
+                    cut += 1;
+                }
+            }
+            if whole > 0 {
+                let runs = [(row, a), (other, b)].map(|(row, run)| self.first_run(row) + run as u32);
+                debug_assert_eq!(self.windings[runs[0] as usize], self.windings[runs[1] as usize]);
+                self.sets.unite(runs[0], runs[1]);
+            }
+            begin = end;
+            // Past all runs that end here: those behind the first hold no node.
+            while end_of(of_row, a) <= end && a < of_row.len() {
+                a += 1;
+            }
+            while end_of(of_other, b) <= end && b < of_other.len() {
+                b += 1;
+            }
+        }
+    }
+
+    /// Number of the first run of a row.
+    pub(super) fn first_run(&self, row: usize) -> u32 {
+        (self.crossings.axes[0].range(row).start + row) as u32
+    }
+
+    /// The run that holds a node.
+    pub(super) fn run(&self, row: usize, i: u32) -> u32 {
+        let before = self.crossings.axes[0].row(row).partition_point(|crossing| crossing.i < i);
+        self.first_run(row) + before as u32
+    }
+
+    /// The piece behind a crossing that is not the last of its edge.
+    pub(super) fn behind(&self, axis: usize, row: usize, crossing: usize) -> u32 {
+        match axis {
+            0 => (crossing + row + 1) as u32,
+            _ => self.stretches[axis - 1][crossing],
+        }
+    }
+
+    /// How often the surface winds around a piece.
+    pub(super) fn winding(&self, piece: u32) -> i32 {
+        self.windings[piece as usize]
+    }
+
+    /// Calls `f` with each piece, the first and the last node of its edges, and how many nodes it holds.
+    pub(super) fn for_each_piece(&self, grid: &Grid3, mut f: impl FnMut(u32, [u32; 3], [u32; 3], u64)) {
+        let [nx, ny, _] = grid.nodes();
+        for axis in 0..3 {
+            let rows = &self.crossings.axes[axis];
+            for row in 0..rows.count() {
+                let at = |i: u32| [i.min(nx - 1), row as u32 % ny, row as u32 / ny];
+                let range = rows.range(row);
+                if axis > 0 {
+                    for q in range.filter(|&q| self.stretches[axis - 1][q] != NONE) {
+                        let first = at(rows.items()[q].i);
+                        let mut last = first;
+                        last[axis] += 1;
+                        f(self.stretches[axis - 1][q], first, last, 0);
+                    }
+                    continue;
+                }
+                let ends = rows.row(row).iter().map(|crossing| crossing.i + 1).chain([nx]);
+                let mut begin = 0;
+                for (run, end) in (self.first_run(row)..).zip(ends) {
+                    let last = if begin < end { end - 1 } else { end };
+                    f(run, at(begin.min(last)), at(last), u64::from(end - begin));
+                    begin = end;
+                }
+            }
+        }
+    }
+
+    /// Makes one region of the regions of two pieces.
+    pub(super) fn unite(&mut self, a: u32, b: u32) {
+        self.sets.unite(a, b);
+    }
+
+    /// The regions, numbered in the order of their first pieces.
+    pub(super) fn regions(mut self) -> Regions<'a> {
+        let mut of_piece = vec![0; self.windings.len()];
+        let mut windings = Vec::new();
+        for piece in 0..self.windings.len() as u32 {
+            let root = self.sets.root(piece);
+            if root == piece {
+                of_piece[piece as usize] = windings.len() as u32;
+                windings.push(self.windings[piece as usize]);
+            } else {
+                of_piece[piece as usize] = of_piece[root as usize];
+            }
+        }
+        self.sets = UnionFind::new(0);
+        Regions { pieces: self, of_piece, windings }
+    }
+}
+
+/// The pieces, with the region of each.
+pub(super) struct Regions<'a> {
+    pub(super) pieces: Pieces<'a>,
+    of_piece: Vec<u32>,
+    windings: Vec<i32>,
+}
+
+impl Regions<'_> {
+    /// The region of a piece.
+    pub(super) fn of(&self, piece: u32) -> u32 {
+        self.of_piece[piece as usize]
+    }
+
+    /// How many copies the region of a piece has.
+    pub(super) fn copies(&self, piece: u32) -> u32 {
+        self.pieces.winding(piece).max(0) as u32
+    }
+
+    /// How often the surface winds around each region.
+    pub(super) fn windings(&self) -> &[i32] {
+        &self.windings
+    }
+}
+
+/// How the winding number changes at a crossing.
+fn step(crossing: Crossing) -> i32 {
+    if crossing.enters { 1 } else { -1 }
+}
+
+/// The winding numbers of all runs.
+fn run_windings(rows: &Rows<Crossing>) -> Vec<i32> {
+    let mut windings = Vec::with_capacity(rows.items().len() + rows.count());
+    for row in 0..rows.count() {
+        let mut winding = 0;
+        windings.push(0);
+        for &crossing in rows.row(row) {
+            winding += step(crossing);
+            windings.push(winding);
+        }
+    }
+    windings
+}

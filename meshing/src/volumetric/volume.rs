@@ -1,0 +1,136 @@
+//! [`mesh_volume`]: from a surface to a volumetric mesh, on as fine a grid as it takes.
+
+use super::error::{Trouble, VolumeError};
+use super::hosts::Hosts;
+use super::mesher::{OnGrid, Stopped, mesh_on_grid};
+use super::pairing::Pairing;
+use super::{HexMesh, Resolution, VolumeParameters};
+use crate::Monitor;
+use crate::grid::Grid3;
+use crate::spatial::Box3;
+use crate::surface::ClosedOrientedMesh;
+
+/// A volumetric mesh of a surface that may intersect itself: hexahedra, several on one cell where sheets of the volume overlap.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VolumeMesh {
+    /// The hexahedra.
+    pub mesh: HexMesh,
+    /// The region of the grid that each hexahedron holds a copy of: nodes that edges connect without meeting the surface. `u32::MAX` for one
+    /// that lies between the edges of the grid.
+    pub regions: Vec<u32>,
+    /// Which copy of its region, from 0.
+    pub copies: Vec<u8>,
+    /// Where the surface is.
+    pub hosts: Hosts,
+    /// How often the surface winds around each region: so many copies it has.
+    pub windings: Vec<i32>,
+    /// Whether the surface allows for other volumes too: the immersion is not simple in the sense of \[Li18\].
+    pub ambiguous: bool,
+    /// How often the cells asked for were halved.
+    pub refinements: u32,
+}
+
+/// Meshes the volume that a surface encloses.
+///
+/// ```
+/// use welter_meshing::{Monitor, shapes, volumetric::{Resolution, VolumeParameters, mesh_volume}};
+/// let surface = shapes::two_boxes(&shapes::BoxPair::overlapping())?;
+/// let parameters = VolumeParameters { resolution: Resolution::ShortestSide(16), ..VolumeParameters::default() };
+/// let volume = mesh_volume(&surface, &parameters, &Monitor::none())?;
+/// // Where the boxes overlap there are two hexahedra on one cell.
+/// assert!(volume.mesh.cells().windows(2).any(|pair| pair[0] == pair[1]));
+/// assert_eq!(volume.windings.iter().max(), Some(&2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`VolumeError`]: parameters out of range, a surface that bounds no volume, features too fine, or the monitor's wish.
+pub fn mesh_volume(
+    surface: &ClosedOrientedMesh,
+    parameters: &VolumeParameters,
+    monitor: &Monitor<'_>,
+) -> Result<VolumeMesh, VolumeError> {
+    parameters.validate()?;
+    if surface.triangles().is_empty() {
+        return Err(VolumeError::Empty);
+    }
+    let pairing = Pairing::new(surface);
+    let mut refinements = 0;
+    loop {
+        let grid = grid_for(surface, parameters, refinements)?;
+        let stopped = match mesh_on_grid(surface, &pairing, &grid, monitor) {
+            Ok(OnGrid { assembled, hosts, windings, ambiguous }) => {
+                return Ok(VolumeMesh {
+                    mesh: assembled.mesh,
+                    regions: assembled.regions,
+                    copies: assembled.copies,
+                    hosts,
+                    windings,
+                    ambiguous,
+                    refinements,
+                });
+            }
+            Err(stopped) => stopped,
+        };
+        let error = told(stopped, &grid, refinements);
+        let finer = refinements + 1;
+        let more = matches!(error, VolumeError::UnderResolved { .. })
+            && finer <= parameters.max_refinements
+            && grid_for(surface, parameters, finer).is_ok();
+        if !more {
+            return Err(error);
+        }
+        refinements = finer;
+    }
+}
+
+/// The grid of a surface, after some halvings of its cells.
+///
+/// # Errors
+/// [`VolumeError::Grid`] and [`VolumeError::TooLarge`].
+pub(crate) fn grid_for(
+    surface: &ClosedOrientedMesh,
+    parameters: &VolumeParameters,
+    refinements: u32,
+) -> Result<Grid3, VolumeError> {
+    let around = Box3::of(surface.triangles().iter().flatten().map(|v| surface.positions()[v.index()]));
+    let size = around.max - around.min;
+    let spacing = match parameters.resolution {
+        Resolution::Spacing(spacing) => spacing,
+        // A flat surface has no shortest side; the next one stands for it.
+        Resolution::ShortestSide(n) => {
+            let mut sides = size.to_array();
+            sides.sort_by(f64::total_cmp);
+            let side = sides.into_iter().find(|&side| side > 0.0).unwrap_or(1.0);
+            side / f64::from(n)
+        }
+    };
+    let spacing = spacing * 0.5f64.powi(refinements as i32);
+    let cells = (0..3).map(|axis| size[axis] / spacing + 3.0).product::<f64>();
+    if cells > parameters.max_cells as f64 {
+        let count = if cells < 1e18 { cells as u64 } else { u64::MAX };
+        return Err(VolumeError::TooLarge { what: "cells of the grid", count, most: parameters.max_cells });
+    }
+    Ok(Grid3::covering(around.min.to_array(), around.max.to_array(), spacing, 1)?)
+}
+
+/// What went wrong, with its place.
+fn told(Stopped { trouble, place }: Stopped, grid: &Grid3, refinements: u32) -> VolumeError {
+    let under_resolved =
+        |what| VolumeError::UnderResolved { place, what, spacing: grid.spacing(), refinements };
+    match trouble {
+        Trouble::Negative { winding, .. } => VolumeError::Negative { place, winding },
+        Trouble::TooManyCopies { copies, .. } => {
+            VolumeError::TooManyCopies { place, copies, most: super::copies::MAX_COPIES }
+        }
+        Trouble::Contradiction { given_up: false, .. } => {
+            under_resolved("no way to tell its sheets apart is consistent")
+        }
+        Trouble::Contradiction { given_up: true, .. } => {
+            under_resolved("no way to tell its sheets apart was found")
+        }
+        Trouble::Cell { what, .. } => under_resolved(what),
+        Trouble::TooLarge { what, count, most } => VolumeError::TooLarge { what, count, most },
+        Trouble::Cancelled(cancelled) => VolumeError::Cancelled(cancelled),
+    }
+}
