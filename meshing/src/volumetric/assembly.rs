@@ -18,6 +18,7 @@ use super::frame::Cut;
 use super::gluing::{Corner, Outside};
 use super::hex_mesh::corner_node;
 use super::pieces::Regions;
+use super::sheets::Sheets;
 use crate::{Cancelled, Monitor};
 
 /// The mesh, and what its hexahedra are.
@@ -35,6 +36,7 @@ pub(super) struct Assembled {
 struct Layout<'a> {
     cut: Cut<'a>,
     regions: &'a Regions<'a>,
+    sheets: &'a Sheets,
     cells: &'a CellHexahedra,
     outside: &'a Outside,
     /// First vertex of each run.
@@ -66,11 +68,12 @@ struct RowOut<'a> {
 pub(super) fn assemble(
     cut: Cut<'_>,
     regions: &Regions<'_>,
+    sheets: &Sheets,
     cells: &CellHexahedra,
     outside: &Outside,
     monitor: &Monitor<'_>,
 ) -> Result<Assembled, Trouble> {
-    let layout = Layout::new(cut, regions, cells, outside)?;
+    let layout = Layout::new(cut, regions, sheets, cells, outside)?;
     let nodes = layout.nodes();
     let count = layout.first_of_row[layout.first_of_row.len() - 1];
     let mut hexahedra = vec![[0; 8]; count];
@@ -134,11 +137,13 @@ impl<'a> Layout<'a> {
     fn new(
         cut: Cut<'a>,
         regions: &'a Regions<'a>,
+        sheets: &'a Sheets,
         cells: &'a CellHexahedra,
         outside: &'a Outside,
     ) -> Result<Self, Trouble> {
         let (first_of_run, first_of_row) = (Vec::new(), vec![0]);
-        let mut layout = Self { cut, regions, cells, outside, first_of_run, first_outside: 0, first_of_row };
+        let mut layout =
+            Self { cut, regions, sheets, cells, outside, first_of_run, first_outside: 0, first_of_row };
         let mut vertices = 0u64;
         for row in 0..cut.crossings.axes[0].count() {
             layout.for_each_run(row, |run, nodes| {
@@ -269,6 +274,23 @@ impl<'a> Layout<'a> {
         RunVertices { first: self.first_of_run[run as usize], begin, length: end - begin }
     }
 
+    /// The copies in the rows of a cell, which the surface does not meet, as which a copy of the first row goes on.
+    fn copies_beside(&self, row: usize, i: u32, copy: u32) -> [u32; 4] {
+        let pieces = &self.regions.pieces;
+        let ny = self.cut.grid.nodes()[1] as usize;
+        let over = |axis: usize, row: usize, copy: u32| {
+            let other = if axis == 1 { row + 1 } else { row + ny };
+            if pieces.part(pieces.run(row, i), pieces.run(other, i))
+                && let Some(seam) = pieces.seam(axis, row, i)
+            {
+                return self.sheets.over(seam, copy);
+            }
+            copy
+        };
+        let (y, z) = (over(1, row, copy), over(2, row, copy));
+        [copy, y, z, over(2, row + 1, y)]
+    }
+
     /// Writes a row of hexahedra.
     fn write(&self, mut out: RowOut<'_>) {
         let row = out.row;
@@ -280,16 +302,22 @@ impl<'a> Layout<'a> {
         self.for_each_stretch(row, |stretch| match stretch {
             Stretch::Between(begin, end) => {
                 let run = self.regions.pieces.run(row, begin);
-                let (region, copies) = (self.regions.of(run), self.regions.copies(run));
+                let (region, copies) = (self.regions.name(run), self.regions.copies(run));
                 if copies == 0 {
                     return;
                 }
                 let runs = rows.map(|row| self.vertices_at(row, begin));
-                for i in begin..end {
-                    for copy in 0..copies {
-                        let corners: [u32; 8] =
-                            std::array::from_fn(|c| runs[c >> 1].at(copy, i + (c & 1) as u32));
-                        out.put(place, corners, first_cell + u64::from(i), region, copy as u8);
+                // The copy of each run that copies of the first go on as, and the first vertex of each.
+                let of_runs: Vec<[u32; 4]> = (0..copies)
+                    .map(|copy| {
+                        let copies = self.copies_beside(row, begin, copy);
+                        std::array::from_fn(|r| runs[r].at(copies[r], begin))
+                    })
+                    .collect();
+                for i in 0..end - begin {
+                    for (copy, first) in of_runs.iter().enumerate() {
+                        let corners: [u32; 8] = std::array::from_fn(|c| first[c >> 1] + i + (c & 1) as u32);
+                        out.put(place, corners, first_cell + u64::from(begin + i), region, copy as u8);
                         place += 1;
                     }
                 }

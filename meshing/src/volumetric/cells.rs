@@ -124,6 +124,12 @@ impl Chunk {
                 sets.unite(outer + copy, inner + sheets.through(crossing.id, copy));
             }
         }
+        for seam in frame.seams() {
+            let [before, behind] = seam.parts.map(|part| first[part as usize]);
+            for copy in 0..copies_of(seam.parts[0]) {
+                sets.unite(before + copy, behind + sheets.over(seam.id, copy));
+            }
+        }
         // A hexahedron of the mesh for each set, in the order of first elements.
         let begin = self.hexahedra.len() as u32;
         let mut of_root = vec![u32::MAX; (copies + extension.end - extension.start) as usize];
@@ -156,7 +162,7 @@ impl Chunk {
                 seen[hexahedron] = place;
                 let hexahedron = &mut hexahedra[hexahedron];
                 if hexahedron.region == u32::MAX {
-                    (hexahedron.region, hexahedron.copy) = (regions.of(frame.piece(place)), copy);
+                    (hexahedron.region, hexahedron.copy) = (regions.name(frame.piece(place)), copy);
                 }
                 for corner in (0..8).filter(|&corner| frame.part(corner) == place) {
                     hexahedron.corners[corner] = copy as u8;

@@ -5,6 +5,7 @@
 //! * a *class* of crossings leads into one copy of a region, the one that begins behind that piece of surface;
 //! * a *patch* of crossings leads from an outer region of `w` copies to an inner one of `w + 1`: the copies outside go on
 //!   inside, each as another one, and the copy left over is that of the patch's class;
+//! * a patch without a class is a *seam*: both regions have equally many copies, all of which go on;
 //! * a *link* says of a patch that the copy of one class outside goes on as the copy of another class inside: a sheet of the
 //!   surface is on both sides of the patch.
 //!
@@ -24,6 +25,9 @@
 /// Most copies of one region.
 pub(super) const MAX_COPIES: u32 = 128;
 
+/// The patch is a seam.
+pub(super) const SEAM: u32 = u32::MAX;
+
 /// Guesses that may be taken back before the search is given up.
 const MAX_GUESSES: usize = 10_000;
 
@@ -32,9 +36,9 @@ const MAX_GUESSES: usize = 10_000;
 pub(super) struct Patch {
     /// The region before the surface.
     pub(super) outer: u32,
-    /// The region behind it, of one more copy.
+    /// The region behind it, of one more copy; of as many if it is a seam.
     pub(super) inner: u32,
-    /// The class of its crossings.
+    /// The class of its crossings, or [`SEAM`].
     pub(super) class: u32,
 }
 
@@ -152,7 +156,9 @@ impl<'a> Search<'a> {
         let (mut starts, mut patch_of) = (Vec::with_capacity(problem.patches.len()), Vec::new());
         for (number, patch) in problem.patches.iter().enumerate() {
             starts.push(domains.len());
-            watchers[patch.class as usize].push(Constraint::Patch(number));
+            if patch.class != SEAM {
+                watchers[patch.class as usize].push(Constraint::Patch(number));
+            }
             for _ in 0..problem.copies[patch.outer as usize] {
                 domains.push(all(problem.copies[patch.inner as usize]));
                 watchers.push(vec![Constraint::Patch(number)]);
@@ -254,26 +260,27 @@ impl<'a> Search<'a> {
         let patch = self.problem.patches[number];
         let copies = self.problem.copies[patch.outer as usize] as usize;
         let start = self.starts[number];
+        let count = copies + usize::from(patch.class != SEAM);
         let variable = |n: usize| if n == copies { patch.class as usize } else { start + n };
-        for n in 0..=copies {
+        for n in 0..count {
             let domain = self.domains[variable(n)];
             if domain.is_power_of_two() {
-                for other in (0..=copies).filter(|&other| other != n) {
+                for other in (0..count).filter(|&other| other != n) {
                     self.narrow(variable(other), !domain)?;
                 }
             }
         }
         let (mut once, mut more) = (0, 0);
-        for n in 0..=copies {
+        for n in 0..count {
             let domain = self.domains[variable(n)];
             more |= once & domain;
             once |= domain;
         }
-        if once != all(copies as u32 + 1) {
+        if once != all(count as u32) {
             return Err(Contradiction { region: patch.inner, given_up: false });
         }
         let single = once & !more;
-        for n in 0..=copies {
+        for n in 0..count {
             let domain = self.domains[variable(n)] & single;
             if domain != 0 && !self.domains[variable(n)].is_power_of_two() {
                 self.narrow(variable(n), domain & domain.wrapping_neg())?;

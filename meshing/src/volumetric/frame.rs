@@ -48,12 +48,22 @@ pub(super) struct CellCrossing {
     pub(super) inner: u32,
 }
 
+/// An edge that is not cut, between two regions that are parts of one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CellSeam {
+    /// Its number among all seams.
+    pub(super) id: u32,
+    /// The parts at its ends, in the order of the seam.
+    pub(super) parts: [u32; 2],
+}
+
 /// The frame of one cell; its memory is used again for the next.
 #[derive(Default)]
 pub(super) struct Frame {
     /// The pieces at the corners, then those between two crossings of an edge.
     pieces: Vec<u32>,
     crossings: Vec<CellCrossing>,
+    seams: Vec<CellSeam>,
     /// The part of each piece, as the lowest place of one of its pieces.
     parts: Vec<u32>,
     /// Pieces between crossings: the two sheets beside each, and its place.
@@ -67,6 +77,7 @@ impl Frame {
         let row_of = |corner: usize| (j as usize + (corner >> 1 & 1)) + ny * (k as usize + (corner >> 2));
         self.pieces.clear();
         self.crossings.clear();
+        self.seams.clear();
         self.walls.clear();
         for rows in 0..4 {
             let row = row_of(2 * rows);
@@ -80,7 +91,14 @@ impl Frame {
                 let range = cut.crossings.on_edge(axis, row, at);
                 let end = corner | 1 << axis;
                 if range.is_empty() {
-                    whole.push([corner as u32, end as u32]);
+                    if axis > 0 && pieces.part(self.pieces[corner], self.pieces[end]) {
+                        let id = pieces
+                            .seam(axis, row, at)
+                            .expect("edges that are not cut between two runs have a seam");
+                        self.seams.push(CellSeam { id, parts: [corner as u32, end as u32] });
+                    } else {
+                        whole.push([corner as u32, end as u32]);
+                    }
                 } else {
                     self.follow(cut, pieces, [axis, row, number], range, [corner as u32, end as u32]);
                 }
@@ -104,6 +122,9 @@ impl Frame {
         for crossing in &mut self.crossings {
             crossing.outer = self.parts[crossing.outer as usize];
             crossing.inner = self.parts[crossing.inner as usize];
+        }
+        for seam in &mut self.seams {
+            seam.parts = seam.parts.map(|place| self.parts[place as usize]);
         }
     }
 
@@ -148,6 +169,11 @@ impl Frame {
     /// The crossings of all edges.
     pub(super) fn crossings(&self) -> &[CellCrossing] {
         &self.crossings
+    }
+
+    /// The seams on its edges.
+    pub(super) fn seams(&self) -> &[CellSeam] {
+        &self.seams
     }
 
     /// Number of places for parts: parts are below it, but not all numbers below are parts.

@@ -41,9 +41,17 @@ pub(super) fn mesh_on_grid(
     let nowhere = |trouble| Stopped { trouble, place: place_of_cell(grid, [0; 3]) };
     let (extension, crossings) = cut(mesh, pairing, grid, monitor).map_err(|c| nowhere(c.into()))?;
     let cut = Cut { grid, crossings: &crossings, extension: &extension };
-    let regions = regions(&cut, monitor).map_err(|c| nowhere(c.into()))?;
-    sew(mesh, &cut, &regions, monitor)
-        .map_err(|trouble| Stopped { trouble, place: place_of(trouble, grid, &regions) })
+    let whole = regions(&cut, None, monitor).map_err(|c| nowhere(c.into()))?;
+    let stopped = |trouble, regions: &Regions<'_>| Stopped { trouble, place: place_of(trouble, grid, regions) };
+    match sew(mesh, &cut, &whole, monitor) {
+        // Perhaps copies of a region change places around it: then only its parts have copies.
+        Err(Trouble::Contradiction { given_up: false, .. }) => {
+            let split = regions(&cut, Some(&whole), monitor).map_err(|c| nowhere(c.into()))?;
+            let sewn = sew(mesh, &cut, &split, monitor).map_err(|trouble| stopped(trouble, &split))?;
+            Ok(OnGrid { windings: whole.windings().to_vec(), ..sewn })
+        }
+        sewn => sewn.map_err(|trouble| stopped(trouble, &whole)),
+    }
 }
 
 /// Where the surface meets the cells, and where it cuts their edges.
@@ -58,13 +66,17 @@ fn cut(
     Ok((extension, Crossings::new(mesh, grid, monitor)?))
 }
 
-/// The regions of the grid.
-fn regions<'a>(cut: &Cut<'a>, monitor: &Monitor<'_>) -> Result<Regions<'a>, Cancelled> {
-    let mut pieces = Pieces::new(cut.grid, cut.crossings);
+/// The regions of the grid, or the parts of those of two or more copies.
+fn regions<'a>(
+    cut: &Cut<'a>,
+    whole: Option<&Regions<'_>>,
+    monitor: &Monitor<'_>,
+) -> Result<Regions<'a>, Cancelled> {
+    let mut pieces = Pieces::new(cut.grid, cut.crossings, whole.is_some());
     for [a, b] in walls(cut, &pieces, monitor)? {
         pieces.unite(a, b);
     }
-    Ok(pieces.regions())
+    Ok(pieces.regions(whole))
 }
 
 /// From regions to the mesh.
@@ -80,7 +92,7 @@ fn sew(
     let sheets = Sheets::new(cut, regions, monitor)?;
     let cells = CellHexahedra::new(cut, regions, &sheets, monitor)?;
     let outside = Outside::new(cut, &cells, monitor)?;
-    let assembled = assemble(*cut, regions, &cells, &outside, monitor)?;
+    let assembled = assemble(*cut, regions, &sheets, &cells, &outside, monitor)?;
     let became = |h: u32| assembled.of_surface[cells.of_extension(h) as usize];
     let hosts = Hosts::new(mesh, cut.grid, cut.extension, became);
     Ok(OnGrid { assembled, hosts, windings: regions.windings().to_vec(), ambiguous: sheets.ambiguous() })

@@ -5,6 +5,9 @@
 //! no node, if both are on one edge), and a *stretch* of an edge along y or z between two crossings. Each has a winding number, exactly.
 //! Pieces that hang together through edges that the surface does not cut are one region.
 //!
+//! A region of two or more copies may be a ring around which the copies change places, as where a band winds twice around before it
+//! closes. So such regions can be *split*: each run is a region of its own, and a *seam* leads from it to each run beside it.
+//!
 //! # Method
 //! Winding numbers are sums of crossings along rows. Runs of neighbouring rows are one region if an edge between them is not cut: the
 //! lists of both rows and of the cuts between them are walked side by side; union-find \[Tarjan75\].
@@ -25,16 +28,29 @@ pub(super) struct Pieces<'a> {
     /// For each crossing along y and z the stretch behind it, if another crossing of the same edge follows.
     stretches: [Vec<u32>; 2],
     sets: UnionFind,
+    seams: Option<Seams>,
+}
+
+/// Where runs of two or more copies hang together.
+#[derive(Default)]
+struct Seams {
+    /// The seams of the edges along y and z from each row: where those of each begin, with the first edge of each.
+    starts: [Vec<usize>; 2],
+    first: [Vec<(u32, u32)>; 2],
+    /// The runs on both sides of each.
+    runs: Vec<[u32; 2]>,
 }
 
 impl<'a> Pieces<'a> {
-    pub(super) fn new(grid: &Grid3, crossings: &'a Crossings) -> Self {
+    /// The pieces, with regions of two or more copies `split` or whole.
+    pub(super) fn new(grid: &Grid3, crossings: &'a Crossings, split: bool) -> Self {
         let mut windings = run_windings(&crossings.axes[0]);
         let mut pieces = Self {
             crossings,
             windings: Vec::new(),
             stretches: [Vec::new(), Vec::new()],
             sets: UnionFind::new(0),
+            seams: split.then(Seams::default),
         };
         let mut stretches = [Vec::new(), Vec::new()];
         for axis in [1, 2] {
@@ -73,39 +89,44 @@ impl<'a> Pieces<'a> {
     /// Unites runs of neighbouring rows.
     fn join_rows(&mut self, grid: &Grid3) {
         let [nx, ny, nz] = grid.nodes();
-        for k in 0..nz as usize {
-            for j in 0..ny as usize {
-                let row = j + ny as usize * k;
-                if j + 1 < ny as usize {
-                    self.join(row, row + 1, self.crossings.axes[1].row(row), nx);
+        for axis in [1, 2] {
+            let step = if axis == 1 { 1 } else { ny as usize };
+            for row in 0..ny as usize * nz as usize {
+                if let Some(seams) = &mut self.seams {
+                    let begin = seams.first[axis - 1].len();
+                    seams.starts[axis - 1].push(begin);
                 }
-                if k + 1 < nz as usize {
-                    self.join(row, row + ny as usize, self.crossings.axes[2].row(row), nx);
+                let at = [row % ny as usize + 1, row / ny as usize + 1][axis - 1];
+                if at < [ny, nz][axis - 1] as usize {
+                    self.join([row, row + step], axis, nx);
                 }
             }
         }
     }
 
     /// Unites the runs of two rows where an edge between them is not among those that are cut.
-    fn join(&mut self, row: usize, other: usize, cuts: &[Crossing], nx: u32) {
-        let [of_row, of_other] = [row, other].map(|row| self.crossings.axes[0].row(row));
+    fn join(&mut self, [row, other]: [usize; 2], axis: usize, nx: u32) {
+        let crossings = self.crossings;
+        let cuts = crossings.axes[axis].row(row);
+        let [of_row, of_other] = [row, other].map(|row| crossings.axes[0].row(row));
         let (mut a, mut b, mut cut, mut begin) = (0, 0, 0, 0);
         while begin < nx {
             let end_of = |list: &[Crossing], run: usize| list.get(run).map_or(nx, |crossing| crossing.i + 1);
-            let (end_a, end_b) = (end_of(of_row, a), end_of(of_other, b));
-            let end = end_a.min(end_b);
-            let mut whole = end - begin;
+            let end = end_of(of_row, a).min(end_of(of_other, b));
+            let runs = [(row, a), (other, b)].map(|(row, run)| self.first_run(row) + run as u32);
+            let mut whole = begin;
             while cut < cuts.len() && cuts[cut].i < end {
                 let i = cuts[cut].i;
-                whole -= 1;
+                if whole < i {
+                    self.join_runs(runs, axis, whole);
+                }
+                whole = i + 1;
                 while cut < cuts.len() && cuts[cut].i == i {
                     cut += 1;
                 }
             }
-            if whole > 0 {
-                let runs = [(row, a), (other, b)].map(|(row, run)| self.first_run(row) + run as u32);
-                debug_assert_eq!(self.windings[runs[0] as usize], self.windings[runs[1] as usize]);
-                self.sets.unite(runs[0], runs[1]);
+            if whole < end {
+                self.join_runs(runs, axis, whole);
             }
             begin = end;
             // Past all runs that end here: those behind the first hold no node.
@@ -116,6 +137,39 @@ impl<'a> Pieces<'a> {
                 b += 1;
             }
         }
+    }
+
+    /// Unites two runs between which edges are not cut, the first from node `i` on, or makes a seam of these.
+    fn join_runs(&mut self, runs: [u32; 2], axis: usize, i: u32) {
+        let winding = self.windings[runs[0] as usize];
+        debug_assert_eq!(winding, self.windings[runs[1] as usize], "the surface is closed");
+        match &mut self.seams {
+            Some(seams) if winding > 1 => {
+                seams.first[axis - 1].push((i, seams.runs.len() as u32));
+                seams.runs.push(runs);
+            }
+            _ => self.sets.unite(runs[0], runs[1]),
+        }
+    }
+
+    /// Whether two pieces that hang together are of two regions with a seam between.
+    pub(super) fn part(&self, a: u32, b: u32) -> bool {
+        self.seams.is_some() && a != b && self.windings[a as usize] > 1
+    }
+
+    /// The runs on both sides of each seam.
+    pub(super) fn seams(&self) -> &[[u32; 2]] {
+        self.seams.as_ref().map_or(&[], |seams| &seams.runs)
+    }
+
+    /// The seam of an edge along y or z that is not cut, if its ends are of different regions.
+    pub(super) fn seam(&self, axis: usize, row: usize, i: u32) -> Option<u32> {
+        let seams = self.seams.as_ref()?;
+        let all = &seams.first[axis - 1];
+        let end = seams.starts[axis - 1].get(row + 1).map_or(all.len(), |&end| end);
+        let of_row = &all[seams.starts[axis - 1][row]..end];
+        let behind = of_row.partition_point(|&(first, _)| first <= i);
+        Some(of_row[behind.checked_sub(1)?].1)
     }
 
     /// Number of the first run of a row.
@@ -175,8 +229,8 @@ impl<'a> Pieces<'a> {
         self.sets.unite(a, b);
     }
 
-    /// The regions, numbered in the order of their first pieces.
-    pub(super) fn regions(mut self) -> Regions<'a> {
+    /// The regions, numbered in the order of their first pieces; of split regions these are parts of those of `whole`.
+    pub(super) fn regions(mut self, whole: Option<&Regions<'_>>) -> Regions<'a> {
         let mut of_piece = vec![0; self.windings.len()];
         let mut windings = Vec::new();
         for piece in 0..self.windings.len() as u32 {
@@ -189,7 +243,8 @@ impl<'a> Pieces<'a> {
             }
         }
         self.sets = UnionFind::new(0);
-        Regions { pieces: self, of_piece, windings }
+        let names = whole.map(|whole| whole.of_piece.clone());
+        Regions { pieces: self, of_piece, windings, names }
     }
 }
 
@@ -198,12 +253,19 @@ pub(super) struct Regions<'a> {
     pub(super) pieces: Pieces<'a>,
     of_piece: Vec<u32>,
     windings: Vec<i32>,
+    /// The whole region of each piece, where regions are split.
+    names: Option<Vec<u32>>,
 }
 
 impl Regions<'_> {
     /// The region of a piece.
     pub(super) fn of(&self, piece: u32) -> u32 {
         self.of_piece[piece as usize]
+    }
+
+    /// The whole region of a piece.
+    pub(super) fn name(&self, piece: u32) -> u32 {
+        self.names.as_ref().unwrap_or(&self.of_piece)[piece as usize]
     }
 
     /// How many copies the region of a piece has.

@@ -8,7 +8,7 @@
 //!
 //! Complexity: near linear in the crossings, and what the search takes.
 
-use super::copies::{Contradiction, Link, MAX_COPIES, Patch, Problem, Solution};
+use super::copies::{Contradiction, Link, MAX_COPIES, Patch, Problem, SEAM, Solution};
 use super::error::Trouble;
 use super::frame::{CellCrossing, Cut, Frame, in_all_cells};
 use super::pieces::Regions;
@@ -35,6 +35,8 @@ struct Facts {
     same_patch: Vec<[u32; 2]>,
     /// A crossing of the patch, of the class outside and of the class inside.
     links: Vec<[u32; 3]>,
+    /// A seam, and a crossing of the class on either side.
+    seam_links: Vec<[u32; 3]>,
     /// Regions before and behind crossings into more than one copy.
     crossings: Vec<[u32; 3]>,
 }
@@ -59,6 +61,10 @@ impl Sheets {
             copies: regions.windings().iter().map(|&w| w.max(0) as u32).collect(),
             ..Problem::default()
         };
+        problem.patches.extend(regions.pieces.seams().iter().map(|runs| {
+            let [outer, inner] = runs.map(|run| regions.of(run));
+            Patch { outer, inner, class: SEAM }
+        }));
         // Every crossing is seen from four cells; what it leads from and to is the same in all.
         let mut between: Vec<[u32; 3]> =
             facts.iter().flat_map(|facts| facts.crossings.iter().copied()).collect();
@@ -93,6 +99,10 @@ impl Sheets {
             };
             problem.links.push(Link { patch, outer, inner: sheets.class_of[inner as usize] });
         }
+        for &[seam, outer, inner] in facts.iter().flat_map(|facts| &facts.seam_links) {
+            let [outer, inner] = [outer, inner].map(|crossing| sheets.class_of[crossing as usize]);
+            problem.links.push(Link { patch: seam, outer, inner });
+        }
         problem.links.sort_unstable();
         problem.links.dedup();
         sheets.solution = problem
@@ -112,6 +122,11 @@ impl Sheets {
     /// As which copy behind a crossing a copy before it goes on.
     pub(super) fn through(&self, crossing: u32, copy: u32) -> u32 {
         self.solution.through(self.patch_of[crossing as usize] as usize, copy)
+    }
+
+    /// As which copy behind a seam a copy before it goes on.
+    pub(super) fn over(&self, seam: u32, copy: u32) -> u32 {
+        self.solution.through(seam as usize, copy)
     }
 
     /// Whether the surface allows for other copies as well.
@@ -140,6 +155,14 @@ impl Facts {
                 continue;
             }
             self.link(list, a);
+        }
+        for seam in frame.seams() {
+            for a in list.iter().filter(|a| a.inner == seam.parts[0]) {
+                let same = |b: &&CellCrossing| b.inner == seam.parts[1] && b.hexahedron == a.hexahedron;
+                if let Some(b) = list.iter().find(same) {
+                    self.seam_links.push([seam.id, a.id, b.id]);
+                }
+            }
         }
     }
 
