@@ -65,7 +65,8 @@ impl CellHexahedra {
                 chunk.trouble = done.err().map(|what| Trouble::Cell { cell, what });
             }
         };
-        let chunks: Vec<Chunk> = in_all_cells(cut, &regions.pieces, "sheets in cells", monitor, add)?;
+        let chunks: Vec<Chunk> =
+            in_all_cells(cut, &regions.pieces, "sheets in cells", monitor, |_| true, add)?;
         let mut all = Self { hexahedra: Vec::new(), starts: vec![0], of_extension: Vec::new() };
         for chunk in chunks {
             if let Some(trouble) = chunk.trouble {

@@ -192,13 +192,14 @@ impl Frame {
     }
 }
 
-/// Calls `add` with the frame of every cell that the surface meets, its index and its number, to gather a value for some rows each;
-/// in parallel.
+/// Calls `add` with the frame of every cell that the surface meets in the rows that are `wanted`, its index and its number, to gather a value
+/// for some rows each; in parallel.
 pub(super) fn in_all_cells<T: Default + Send>(
     cut: &Cut<'_>,
     pieces: &Pieces<'_>,
     name: &'static str,
     monitor: &Monitor<'_>,
+    wanted: impl Fn(usize) -> bool + Sync,
     add: impl Fn(&mut T, &Frame, [u32; 3], usize) + Sync,
 ) -> Result<Vec<T>, Cancelled> {
     let cells = cut.extension.cells();
@@ -211,7 +212,7 @@ pub(super) fn in_all_cells<T: Default + Send>(
             let (mut value, mut frame) = (T::default(), Frame::default());
             let rows = chunk * ROWS..cells.count().min((chunk + 1) * ROWS);
             let done = rows.len() as u64;
-            for row in rows {
+            for row in rows.filter(|&row| wanted(row)) {
                 for number in cells.range(row) {
                     let cell = [cells.items()[number].i, (row % ny) as u32, (row / ny) as u32];
                     frame.fill(cut, pieces, cell, number);

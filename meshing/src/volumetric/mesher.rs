@@ -42,7 +42,8 @@ pub(super) fn mesh_on_grid(
     let (extension, crossings) = cut(mesh, pairing, grid, monitor).map_err(|c| nowhere(c.into()))?;
     let cut = Cut { grid, crossings: &crossings, extension: &extension };
     let whole = regions(&cut, None, monitor).map_err(|c| nowhere(c.into()))?;
-    let stopped = |trouble, regions: &Regions<'_>| Stopped { trouble, place: place_of(trouble, grid, regions) };
+    let stopped =
+        |trouble, regions: &Regions<'_>| Stopped { trouble, place: place_of(trouble, grid, regions) };
     match sew(mesh, &cut, &whole, monitor) {
         // Perhaps copies of a region change places around it: then only its parts have copies.
         Err(Trouble::Contradiction { given_up: false, .. }) => {

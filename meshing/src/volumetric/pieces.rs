@@ -196,6 +196,19 @@ impl<'a> Pieces<'a> {
         self.windings[piece as usize]
     }
 
+    /// Whether some piece on the edges from a row has two or more copies, for each row.
+    pub(super) fn deep_rows(&self, grid: &Grid3) -> Vec<bool> {
+        let ny = grid.nodes()[1] as usize;
+        let mut deep = vec![false; self.crossings.axes[0].count()];
+        if self.windings.iter().all(|&winding| winding < 2) {
+            return deep;
+        }
+        self.for_each_piece(grid, |piece, [_, j, k], _, _| {
+            deep[j as usize + ny * k as usize] |= self.winding(piece) > 1;
+        });
+        deep
+    }
+
     /// Calls `f` with each piece, the first and the last node of its edges, and how many nodes it holds.
     pub(super) fn for_each_piece(&self, grid: &Grid3, mut f: impl FnMut(u32, [u32; 3], [u32; 3], u64)) {
         let [nx, ny, _] = grid.nodes();
