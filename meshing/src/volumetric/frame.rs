@@ -4,8 +4,10 @@
 //! The twelve edges of a cell that the surface meets fall into pieces at the crossings. *Parts* are the connected sets of these pieces
 //! within the cell. Each crossing leads from an outer part to an inner one and belongs to one hexahedron of the extension.
 //!
-//! Two pieces that lie between the same two connected parts of the surface, on different edges, are in one part too: between two sheets of a
-//! thin wall that cuts an edge twice there is no node to connect them. They must have the same winding number.
+//! Pieces that no edge of the cell connects may lie on the same side of every part of the surface in it: between the two sheets of a
+//! thin wall that cuts an edge twice, or at two corners that a saddle cuts off. Then they are alike, and in one part too. On which side
+//! of a part of the surface a piece lies is a number, by how much crossings with it add up on the way there: it is the same for every way, since the part
+//! ends only where the cell does.
 //!
 //! This replaces the signs of \[Gagniere22\] 3.5: a vertex of the extension's hexahedron is inside if its part is the inner one of a
 //! crossing of that hexahedron. No plane of a triangle, and no closest facet, is asked.
@@ -66,8 +68,10 @@ pub(super) struct Frame {
     seams: Vec<CellSeam>,
     /// The part of each piece, as the lowest place of one of its pieces.
     parts: Vec<u32>,
-    /// Pieces between crossings: the two sheets beside each, and its place.
-    walls: Vec<([u64; 2], u32)>,
+    /// Pairs of places that are on the same side of everything, in different regions or not.
+    alike: Vec<[u32; 2]>,
+    /// For each place that stands for a part, its side of each hexahedron of the extension.
+    sides: Vec<i16>,
 }
 
 impl Frame {
@@ -78,7 +82,7 @@ impl Frame {
         self.pieces.clear();
         self.crossings.clear();
         self.seams.clear();
-        self.walls.clear();
+        self.alike.clear();
         for rows in 0..4 {
             let row = row_of(2 * rows);
             let (low, high) = (pieces.run(row, i), pieces.run(row, i + 1));
@@ -108,13 +112,21 @@ impl Frame {
         for [a, b] in whole {
             sets.unite(a, b);
         }
-        self.walls.sort_unstable();
-        for pair in self.walls.windows(2) {
-            let [a, b] = [pair[0].1, pair[1].1];
-            let same_depth =
-                pieces.winding(self.pieces[a as usize]) == pieces.winding(self.pieces[b as usize]);
-            if pair[0].0 == pair[1].0 && same_depth {
+        if self.seams.is_empty() {
+            self.find_alike(cut.extension.hexahedra(number), &mut sets);
+        } else {
+            let mut joined = sets.clone();
+            self.seams.iter().for_each(|seam| joined.unite(seam.parts[0], seam.parts[1]));
+            self.find_alike(cut.extension.hexahedra(number), &mut joined);
+        }
+        for n in 0..self.alike.len() {
+            let [a, b] = self.alike[n];
+            let [of_a, of_b] = [a, b].map(|place| self.pieces[place as usize]);
+            if !pieces.part(of_a, of_b) {
                 sets.unite(a, b);
+            } else if let Some(id) = pieces.wall_seam(of_a, of_b) {
+                let parts = if of_a < of_b { [a, b] } else { [b, a] };
+                self.seams.push(CellSeam { id, parts });
             }
         }
         self.parts.clear();
@@ -139,7 +151,6 @@ impl Frame {
     ) {
         let offset: usize = cut.crossings.axes[..axis].iter().map(|rows| rows.items().len()).sum();
         let mut before = begin;
-        let mut wall = None;
         for q in range.clone() {
             let crossing = cut.crossings.axes[axis].items()[q];
             let hexahedron = cut
@@ -152,18 +163,49 @@ impl Frame {
                 self.pieces.push(pieces.behind(axis, row, q));
                 self.pieces.len() as u32 - 1
             };
-            // A sheet, and on which side of it the piece lies.
-            let sheet = |outside: bool| u64::from(hexahedron) << 1 | u64::from(outside);
-            if let Some(other) = wall {
-                let mut sheets = [other, sheet(crossing.enters)];
-                sheets.sort_unstable();
-                self.walls.push((sheets, before));
-            }
-            wall = Some(sheet(!crossing.enters));
             let [outer, inner] = if crossing.enters { [before, behind] } else { [behind, before] };
             self.crossings.push(CellCrossing { id: (offset + q) as u32, hexahedron, outer, inner });
             before = behind;
         }
+    }
+
+    /// Finds parts that are on the same side of everything; `sets` are places that edges connect.
+    fn find_alike(&mut self, hexahedra: std::ops::Range<u32>, sets: &mut UnionFind) {
+        let places = self.pieces.len() as u32;
+        let parts: Vec<u32> = (0..places).filter(|&place| sets.root(place) == place).collect();
+        if parts.len() < 3 {
+            return;
+        }
+        let count = hexahedra.len();
+        self.sides.clear();
+        self.sides.resize(places as usize * count, 0);
+        let mut known = vec![false; places as usize];
+        known[parts[0] as usize] = true;
+        // The edges of a cell are connected, so each pass reaches further.
+        for _ in 0..parts.len() {
+            for n in 0..self.crossings.len() {
+                let crossing = self.crossings[n];
+                let [outer, inner] = [crossing.outer, crossing.inner].map(|place| sets.root(place) as usize);
+                let (from, to, step) = match (known[outer], known[inner]) {
+                    (true, false) => (outer, inner, 1),
+                    (false, true) => (inner, outer, -1),
+                    _ => continue,
+                };
+                known[to] = true;
+                self.sides.copy_within(from * count..(from + 1) * count, to * count);
+                self.sides[to * count + (crossing.hexahedron - hexahedra.start) as usize] += step;
+            }
+        }
+        let sides = |place: u32| &self.sides[place as usize * count..(place as usize + 1) * count];
+        let mut sorted = parts;
+        sorted.sort_by(|&a, &b| sides(a).cmp(sides(b)).then(a.cmp(&b)));
+        let alike = sorted.windows(2).filter(|pair| sides(pair[0]) == sides(pair[1]));
+        self.alike.extend(alike.map(|pair| [pair[0], pair[1]]));
+    }
+
+    /// Pairs of places that are alike though no edge connects them.
+    pub(super) fn alike(&self) -> &[[u32; 2]] {
+        &self.alike
     }
 
     /// The crossings of all edges.

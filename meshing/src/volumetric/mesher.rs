@@ -74,9 +74,8 @@ fn regions<'a>(
     monitor: &Monitor<'_>,
 ) -> Result<Regions<'a>, Cancelled> {
     let mut pieces = Pieces::new(cut.grid, cut.crossings, whole.is_some());
-    for [a, b] in walls(cut, &pieces, monitor)? {
-        pieces.unite(a, b);
-    }
+    let pairs = walls(cut, &pieces, monitor)?;
+    pieces.add_walls(&pairs);
     Ok(pieces.regions(whole))
 }
 

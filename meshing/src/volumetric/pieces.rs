@@ -37,8 +37,10 @@ struct Seams {
     /// The seams of the edges along y and z from each row: where those of each begin, with the first edge of each.
     starts: [Vec<usize>; 2],
     first: [Vec<(u32, u32)>; 2],
-    /// The runs on both sides of each.
-    runs: Vec<[u32; 2]>,
+    /// The pieces on both sides of each: first runs with an edge between, then those between which there is none, sorted.
+    pieces: Vec<[u32; 2]>,
+    /// How many have an edge between.
+    edges: usize,
 }
 
 impl<'a> Pieces<'a> {
@@ -145,8 +147,9 @@ impl<'a> Pieces<'a> {
         debug_assert_eq!(winding, self.windings[runs[1] as usize], "the surface is closed");
         match &mut self.seams {
             Some(seams) if winding > 1 => {
-                seams.first[axis - 1].push((i, seams.runs.len() as u32));
-                seams.runs.push(runs);
+                seams.first[axis - 1].push((i, seams.pieces.len() as u32));
+                seams.pieces.push(runs);
+                seams.edges += 1;
             }
             _ => self.sets.unite(runs[0], runs[1]),
         }
@@ -157,9 +160,24 @@ impl<'a> Pieces<'a> {
         self.seams.is_some() && a != b && self.windings[a as usize] > 1
     }
 
-    /// The runs on both sides of each seam.
+    /// The pieces on both sides of each seam.
     pub(super) fn seams(&self) -> &[[u32; 2]] {
-        self.seams.as_ref().map_or(&[], |seams| &seams.runs)
+        self.seams.as_ref().map_or(&[], |seams| &seams.pieces)
+    }
+
+    /// Unites pairs of pieces, the lower first, sorted; or makes seams of them.
+    pub(super) fn add_walls(&mut self, pairs: &[[u32; 2]]) {
+        match &mut self.seams {
+            Some(seams) => seams.pieces.extend_from_slice(pairs),
+            None => pairs.iter().for_each(|&[a, b]| self.sets.unite(a, b)),
+        }
+    }
+
+    /// The seam between two pieces that no edge connects, if there is one.
+    pub(super) fn wall_seam(&self, a: u32, b: u32) -> Option<u32> {
+        let seams = self.seams.as_ref()?;
+        let place = seams.pieces[seams.edges..].binary_search(&[a.min(b), a.max(b)]).ok()?;
+        Some((seams.edges + place) as u32)
     }
 
     /// The seam of an edge along y or z that is not cut, if its ends are of different regions.
@@ -196,8 +214,8 @@ impl<'a> Pieces<'a> {
         self.windings[piece as usize]
     }
 
-    /// Whether some piece on the edges from a row has two or more copies, for each row.
-    pub(super) fn deep_rows(&self, grid: &Grid3) -> Vec<bool> {
+    /// For each row of cells whether some piece on their edges has two or more copies.
+    pub(super) fn deep_cells(&self, grid: &Grid3) -> Vec<bool> {
         let ny = grid.nodes()[1] as usize;
         let mut deep = vec![false; self.crossings.axes[0].count()];
         if self.windings.iter().all(|&winding| winding < 2) {
@@ -206,7 +224,10 @@ impl<'a> Pieces<'a> {
         self.for_each_piece(grid, |piece, [_, j, k], _, _| {
             deep[j as usize + ny * k as usize] |= self.winding(piece) > 1;
         });
-        deep
+        let any = |row: usize| {
+            [row, row + 1, row + ny, row + ny + 1].iter().any(|&row| deep.get(row).is_some_and(|&deep| deep))
+        };
+        (0..deep.len()).map(any).collect()
     }
 
     /// Calls `f` with each piece, the first and the last node of its edges, and how many nodes it holds.
@@ -235,11 +256,6 @@ impl<'a> Pieces<'a> {
                 }
             }
         }
-    }
-
-    /// Makes one region of the regions of two pieces.
-    pub(super) fn unite(&mut self, a: u32, b: u32) {
-        self.sets.unite(a, b);
     }
 
     /// The regions, numbered in the order of their first pieces; of split regions these are parts of those of `whole`.

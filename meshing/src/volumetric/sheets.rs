@@ -48,13 +48,9 @@ impl Sheets {
             return Err(Trouble::TooManyCopies { region, copies: w as u32 });
         }
         // Where at most one sheet lies there is nothing to tell apart.
-        let deep = regions.pieces.deep_rows(cut.grid);
-        let ny = cut.grid.nodes()[1] as usize;
-        let wanted = |row: usize| {
-            [row, row + 1, row + ny, row + ny + 1].iter().any(|&row| deep.get(row).is_some_and(|&deep| deep))
-        };
+        let deep = regions.pieces.deep_cells(cut.grid);
         let add = |facts: &mut Facts, frame: &Frame, _: [u32; 3], _: usize| facts.add(frame, regions);
-        let facts = in_all_cells(cut, &regions.pieces, "copies of regions", monitor, wanted, add)?;
+        let facts = in_all_cells(cut, &regions.pieces, "copies of regions", monitor, |row| deep[row], add)?;
         let count = cut.crossings.axes.iter().map(|rows| rows.items().len()).sum();
         let (mut classes, mut patches) = (UnionFind::new(count), UnionFind::new(count));
         for facts in &facts {

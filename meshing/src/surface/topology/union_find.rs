@@ -5,6 +5,7 @@
 //! constant.
 
 /// A partition of `0..n`.
+#[derive(Clone, Debug)]
 pub(crate) struct UnionFind {
     parent: Vec<u32>,
 }
