@@ -7,7 +7,9 @@
 //!   inside, each as another one, and the copy left over is that of the patch's class;
 //! * a patch without a class is a *seam*: both regions have equally many copies, all of which go on;
 //! * a *link* says of a patch that the copy of one class outside goes on as the copy of another class inside: a sheet of the
-//!   surface is on both sides of the patch.
+//!   surface is on both sides of the patch;
+//! * a *square* says that going on through two patches, one after the other, is the same as through two others: where two sheets cross
+//!   it does not matter which is passed first.
 //!
 //! A solution names the copy of each class and, for each patch, as which copy inside each copy outside goes on.
 //!
@@ -52,7 +54,11 @@ pub(super) struct Link {
     pub(super) inner: u32,
 }
 
-/// Regions, classes, patches and links.
+/// Going on through the first two patches is the same as through the other two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Square(pub(super) [u32; 4]);
+
+/// Regions, classes, patches, links and squares.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Problem {
     /// How many copies each region has, at most [`MAX_COPIES`].
@@ -61,6 +67,7 @@ pub(super) struct Problem {
     pub(super) classes: Vec<u32>,
     pub(super) patches: Vec<Patch>,
     pub(super) links: Vec<Link>,
+    pub(super) squares: Vec<Square>,
 }
 
 /// A way to tell copies apart.
@@ -95,6 +102,7 @@ pub(super) struct Contradiction {
 enum Constraint {
     Patch(usize),
     Link(usize),
+    Square(usize),
 }
 
 /// A guess, and what to go back to.
@@ -130,9 +138,9 @@ impl Problem {
     /// Tells the copies apart.
     pub(super) fn solve(&self) -> Result<Solution, Contradiction> {
         let mut search = Search::new(self);
-        let all =
-            (0..self.patches.len()).map(Constraint::Patch).chain((0..self.links.len()).map(Constraint::Link));
-        search.queue.extend(all);
+        search.queue.extend((0..self.patches.len()).map(Constraint::Patch));
+        search.queue.extend((0..self.links.len()).map(Constraint::Link));
+        search.queue.extend((0..self.squares.len()).map(Constraint::Square));
         search.run()?;
         let mut solution = search.solution();
         while !search.guesses.is_empty() && !solution.ambiguous {
@@ -171,6 +179,14 @@ impl<'a> Search<'a> {
             let through = starts[patch]..starts[patch] + copies;
             for variable in through.chain([link.outer as usize, link.inner as usize]) {
                 watchers[variable].push(Constraint::Link(number));
+            }
+        }
+        for (number, &Square(patches)) in problem.squares.iter().enumerate() {
+            for patch in patches.map(|patch| patch as usize) {
+                let copies = problem.copies[problem.patches[patch].outer as usize] as usize;
+                for variable in starts[patch]..starts[patch] + copies {
+                    watchers[variable].push(Constraint::Square(number));
+                }
             }
         }
         let named = vec![0; problem.copies.len()];
@@ -246,6 +262,7 @@ impl<'a> Search<'a> {
             let done = match constraint {
                 Constraint::Patch(number) => self.permute(number),
                 Constraint::Link(number) => self.link(number),
+                Constraint::Square(number) => self.square(number),
             };
             if let Err(contradiction) = done {
                 self.queue.clear();
@@ -316,6 +333,29 @@ impl<'a> Search<'a> {
             let others = all(copies as u32) & !self.domains[outer];
             for copy in bits(others) {
                 self.narrow(start + copy, !value)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Both ways around a square lead to the same copy.
+    fn square(&mut self, number: usize) -> Result<(), Contradiction> {
+        let Square(patches) = self.problem.squares[number];
+        let copies = self.problem.copies[self.problem.patches[patches[0] as usize].outer as usize] as usize;
+        let [a, b, c, d] = patches.map(|patch| self.starts[patch as usize]);
+        for copy in 0..copies {
+            let reached = |first: u128, second: usize| {
+                bits(first).fold(0, |set, between| set | self.domains[second + between])
+            };
+            let both = reached(self.domains[a + copy], b) & reached(self.domains[c + copy], d);
+            for (first, second) in [(a + copy, b), (c + copy, d)] {
+                let domain = self.domains[first];
+                let able = bits(domain).filter(|between| self.domains[second + between] & both != 0);
+                let able = able.fold(0, |set, between| set | 1 << between);
+                self.narrow(first, able)?;
+                if able.is_power_of_two() {
+                    self.narrow(second + able.trailing_zeros() as usize, both)?;
+                }
             }
         }
         Ok(())
@@ -440,6 +480,7 @@ mod tests {
             classes: vec![0, 1, 2, 2],
             patches: vec![Patch { outer: 0, inner: 2, class: 3 }, Patch { outer: 1, inner: 2, class: 2 }],
             links,
+            squares: vec![],
         }
     }
 
@@ -473,6 +514,7 @@ mod tests {
             classes: vec![0, 1, 2, 3],
             patches: (0..3).map(|n| Patch { outer: n, inner: n + 1, class: n + 1 }).collect(),
             links: vec![],
+            squares: vec![],
         };
         let solution = problem.solve().unwrap();
         assert!(!solution.ambiguous);
@@ -544,7 +586,7 @@ mod tests {
                     })
                 })
                 .collect();
-            let problem = Problem { copies, classes, patches, links };
+            let problem = Problem { copies, classes, patches, links, squares: vec![] };
             let found = problem.solve();
             assert_eq!(found.is_ok(), has_solution(&problem), "{problem:?}");
             solved += usize::from(found.is_ok());

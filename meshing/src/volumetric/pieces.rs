@@ -13,6 +13,8 @@
 //! lists of both rows and of the cuts between them are walked side by side; union-find \[Tarjan75\].
 //! Complexity: O(rows + crossings), whatever the number of nodes.
 
+use std::ops::Range;
+
 use super::crossings::{Crossing, Crossings};
 use super::rows::Rows;
 use crate::grid::Grid3;
@@ -31,16 +33,32 @@ pub(super) struct Pieces<'a> {
     seams: Option<Seams>,
 }
 
+/// Edges from neighbouring nodes of a row that are one seam.
+#[derive(Clone, Copy, Debug)]
+struct SeamEdges {
+    begin: u32,
+    end: u32,
+    seam: u32,
+}
+
 /// Where runs of two or more copies hang together.
 #[derive(Default)]
 struct Seams {
-    /// The seams of the edges along y and z from each row: where those of each begin, with the first edge of each.
+    /// The seams of the edges along y and z from each row, and where those of each row begin.
     starts: [Vec<usize>; 2],
-    first: [Vec<(u32, u32)>; 2],
+    edges: [Vec<SeamEdges>; 2],
     /// The pieces on both sides of each: first runs with an edge between, then those between which there is none, sorted.
     pieces: Vec<[u32; 2]>,
     /// How many have an edge between.
-    edges: usize,
+    with_edges: usize,
+}
+
+impl Seams {
+    /// The seams of the edges along an axis from a row.
+    fn of_row(&self, axis: usize, row: usize) -> &[SeamEdges] {
+        let (starts, all) = (&self.starts[axis - 1], &self.edges[axis - 1]);
+        &all[starts[row]..starts.get(row + 1).map_or(all.len(), |&end| end)]
+    }
 }
 
 impl<'a> Pieces<'a> {
@@ -95,7 +113,7 @@ impl<'a> Pieces<'a> {
             let step = if axis == 1 { 1 } else { ny as usize };
             for row in 0..ny as usize * nz as usize {
                 if let Some(seams) = &mut self.seams {
-                    let begin = seams.first[axis - 1].len();
+                    let begin = seams.edges[axis - 1].len();
                     seams.starts[axis - 1].push(begin);
                 }
                 let at = [row % ny as usize + 1, row / ny as usize + 1][axis - 1];
@@ -120,7 +138,7 @@ impl<'a> Pieces<'a> {
             while cut < cuts.len() && cuts[cut].i < end {
                 let i = cuts[cut].i;
                 if whole < i {
-                    self.join_runs(runs, axis, whole);
+                    self.join_runs(runs, axis, whole..i);
                 }
                 whole = i + 1;
                 while cut < cuts.len() && cuts[cut].i == i {
@@ -128,7 +146,7 @@ impl<'a> Pieces<'a> {
                 }
             }
             if whole < end {
-                self.join_runs(runs, axis, whole);
+                self.join_runs(runs, axis, whole..end);
             }
             begin = end;
             // Past all runs that end here: those behind the first hold no node.
@@ -141,15 +159,16 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Unites two runs between which edges are not cut, the first from node `i` on, or makes a seam of these.
-    fn join_runs(&mut self, runs: [u32; 2], axis: usize, i: u32) {
+    /// Unites two runs between which the edges from some nodes are not cut, or makes a seam of these.
+    fn join_runs(&mut self, runs: [u32; 2], axis: usize, nodes: Range<u32>) {
         let winding = self.windings[runs[0] as usize];
         debug_assert_eq!(winding, self.windings[runs[1] as usize], "the surface is closed");
         match &mut self.seams {
             Some(seams) if winding > 1 => {
-                seams.first[axis - 1].push((i, seams.pieces.len() as u32));
+                let seam = seams.pieces.len() as u32;
+                seams.edges[axis - 1].push(SeamEdges { begin: nodes.start, end: nodes.end, seam });
                 seams.pieces.push(runs);
-                seams.edges += 1;
+                seams.with_edges += 1;
             }
             _ => self.sets.unite(runs[0], runs[1]),
         }
@@ -165,6 +184,34 @@ impl<'a> Pieces<'a> {
         self.seams.as_ref().map_or(&[], |seams| &seams.pieces)
     }
 
+    /// Seams around a face of the grid across x: through the first two is the same as through the other two.
+    pub(super) fn seam_squares(&self, grid: &Grid3) -> Vec<[u32; 4]> {
+        let Some(seams) = &self.seams else { return Vec::new() };
+        let [_, ny, nz] = grid.nodes().map(|n| n as usize);
+        let mut squares = Vec::new();
+        for row in 0..ny * (nz - 1) {
+            if row % ny + 1 == ny {
+                continue;
+            }
+            for a in seams.of_row(1, row) {
+                let meets = |begin: u32, end: u32, of: &SeamEdges| {
+                    let (begin, end) = (begin.max(of.begin), end.min(of.end));
+                    (begin < end).then_some((begin, end))
+                };
+                for b in seams.of_row(2, row + 1) {
+                    let Some((begin, end)) = meets(a.begin, a.end, b) else { continue };
+                    for c in seams.of_row(2, row) {
+                        let Some((begin, end)) = meets(begin, end, c) else { continue };
+                        let fourth =
+                            seams.of_row(1, row + ny).iter().filter(|d| meets(begin, end, d).is_some());
+                        squares.extend(fourth.map(|d| [a.seam, b.seam, c.seam, d.seam]));
+                    }
+                }
+            }
+        }
+        squares
+    }
+
     /// Unites pairs of pieces, the lower first, sorted; or makes seams of them.
     pub(super) fn add_walls(&mut self, pairs: &[[u32; 2]]) {
         match &mut self.seams {
@@ -176,18 +223,16 @@ impl<'a> Pieces<'a> {
     /// The seam between two pieces that no edge connects, if there is one.
     pub(super) fn wall_seam(&self, a: u32, b: u32) -> Option<u32> {
         let seams = self.seams.as_ref()?;
-        let place = seams.pieces[seams.edges..].binary_search(&[a.min(b), a.max(b)]).ok()?;
-        Some((seams.edges + place) as u32)
+        let place = seams.pieces[seams.with_edges..].binary_search(&[a.min(b), a.max(b)]).ok()?;
+        Some((seams.with_edges + place) as u32)
     }
 
     /// The seam of an edge along y or z that is not cut, if its ends are of different regions.
     pub(super) fn seam(&self, axis: usize, row: usize, i: u32) -> Option<u32> {
         let seams = self.seams.as_ref()?;
-        let all = &seams.first[axis - 1];
-        let end = seams.starts[axis - 1].get(row + 1).map_or(all.len(), |&end| end);
-        let of_row = &all[seams.starts[axis - 1][row]..end];
-        let behind = of_row.partition_point(|&(first, _)| first <= i);
-        Some(of_row[behind.checked_sub(1)?].1)
+        let of_row = seams.of_row(axis, row);
+        let behind = of_row.partition_point(|edges| edges.begin <= i);
+        Some(of_row[behind.checked_sub(1)?].seam)
     }
 
     /// Number of the first run of a row.

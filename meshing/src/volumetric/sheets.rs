@@ -8,7 +8,7 @@
 //!
 //! Complexity: near linear in the crossings, and what the search takes.
 
-use super::copies::{Contradiction, Link, MAX_COPIES, Patch, Problem, SEAM, Solution};
+use super::copies::{Contradiction, Link, MAX_COPIES, Patch, Problem, SEAM, Solution, Square};
 use super::error::Trouble;
 use super::frame::{CellCrossing, Cut, Frame, in_all_cells};
 use super::pieces::Regions;
@@ -37,6 +37,10 @@ struct Facts {
     links: Vec<[u32; 3]>,
     /// A seam, and a crossing of the class on either side.
     seam_links: Vec<[u32; 3]>,
+    /// Crossings of the patches of a square.
+    squares: Vec<[u32; 4]>,
+    /// A crossing of a patch, the seam behind it, the seam before it, and a crossing beyond.
+    seam_squares: Vec<[u32; 4]>,
     /// Regions before and behind crossings into more than one copy.
     crossings: Vec<[u32; 3]>,
 }
@@ -105,6 +109,18 @@ impl Sheets {
             let [outer, inner] = [outer, inner].map(|crossing| sheets.class_of[crossing as usize]);
             problem.links.push(Link { patch: seam, outer, inner });
         }
+        for squares in facts.iter().map(|facts| &facts.squares) {
+            problem
+                .squares
+                .extend(squares.iter().map(|ids| Square(ids.map(|id| sheets.patch_of[id as usize]))));
+        }
+        for &[a, behind, before, b] in facts.iter().flat_map(|facts| &facts.seam_squares) {
+            let [a, b] = [a, b].map(|id| sheets.patch_of[id as usize]);
+            problem.squares.push(Square([a, behind, before, b]));
+        }
+        problem.squares.extend(regions.pieces.seam_squares(cut.grid).into_iter().map(Square));
+        problem.squares.sort_unstable();
+        problem.squares.dedup();
         problem.links.sort_unstable();
         problem.links.dedup();
         sheets.solution = problem
@@ -142,6 +158,7 @@ impl Facts {
     fn add(&mut self, frame: &Frame, regions: &Regions<'_>) {
         let winding = |part: u32| regions.pieces.winding(frame.piece(part));
         let list = frame.crossings();
+        let mut patches: Vec<CellCrossing> = Vec::new();
         for (n, a) in list.iter().enumerate() {
             if winding(a.inner) < 2 {
                 continue;
@@ -157,12 +174,48 @@ impl Facts {
                 continue;
             }
             self.link(list, a);
+            patches.push(*a);
         }
+        // Where one sheet lies before both there is one way only.
+        patches.retain(|a| winding(a.outer) > 1);
+        self.squares(&patches);
+        self.seam_squares(&patches, frame);
         for seam in frame.seams() {
             for a in list.iter().filter(|a| a.inner == seam.parts[0]) {
                 let same = |b: &&CellCrossing| b.inner == seam.parts[1] && b.hexahedron == a.hexahedron;
                 if let Some(b) = list.iter().find(same) {
                     self.seam_links.push([seam.id, a.id, b.id]);
+                }
+            }
+        }
+    }
+
+    /// Where two sheets cross either may be passed first.
+    fn squares(&mut self, patches: &[CellCrossing]) {
+        for a in patches {
+            for b in patches.iter().filter(|b| b.outer == a.inner && b.hexahedron > a.hexahedron) {
+                for c in patches.iter().filter(|c| c.outer == a.outer && c.hexahedron == b.hexahedron) {
+                    let closes = |d: &&CellCrossing| {
+                        d.outer == c.inner && d.inner == b.inner && d.hexahedron == a.hexahedron
+                    };
+                    self.squares.extend(patches.iter().filter(closes).map(|d| [a.id, b.id, c.id, d.id]));
+                }
+            }
+        }
+    }
+
+    /// A sheet may be passed before a seam or behind it.
+    fn seam_squares(&mut self, patches: &[CellCrossing], frame: &Frame) {
+        for before in frame.seams() {
+            for a in patches.iter().filter(|a| a.outer == before.parts[0]) {
+                for behind in frame.seams().iter().filter(|behind| behind.parts[0] == a.inner) {
+                    let beyond = |b: &&CellCrossing| {
+                        b.outer == before.parts[1]
+                            && b.inner == behind.parts[1]
+                            && b.hexahedron == a.hexahedron
+                    };
+                    let squares = patches.iter().filter(beyond).map(|b| [a.id, behind.id, before.id, b.id]);
+                    self.seam_squares.extend(squares);
                 }
             }
         }
