@@ -15,3 +15,4 @@ mod remesh;
 mod shapes;
 mod spatial;
 mod surface;
+mod volumetric;

@@ -199,6 +199,11 @@ impl<const D: usize> Grid<D> {
         })
     }
 
+    /// The first axis along which the middles between nodes may have no exact coordinates.
+    pub(crate) fn axis_of_inexact_middles(&self) -> Option<usize> {
+        (0..D).find(|&axis| !exact(self.origin[axis], self.spacing / 2.0, 2 * self.cells[axis]))
+    }
+
     /// The cell whose closed region holds the point or is next to it, and where the point is in that cell, from 0 to 1 along each
     /// axis: points outside of the grid are taken to the nearest point of it; NaN counts as the origin.
     #[must_use]

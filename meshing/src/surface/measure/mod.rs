@@ -17,7 +17,7 @@ mod bounded;
 mod curvature;
 mod extent;
 mod statistics;
-mod sum;
+pub(crate) mod sum;
 mod volume;
 
 pub use bounded::Bounded;

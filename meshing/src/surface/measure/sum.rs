@@ -6,13 +6,13 @@ use rayon::prelude::*;
 ///
 /// The result of `n` terms is off by at most `u |sum| + 2 n^2 u^2 (sum of magnitudes)`, where `u = 2^-53`.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sum {
+pub(crate) struct Sum {
     high: f64,
     low: f64,
 }
 
 impl Sum {
-    pub(super) fn add(&mut self, term: f64) {
+    pub(crate) fn add(&mut self, term: f64) {
         let sum = self.high + term;
         // The error of the addition, exactly.
         self.low +=
@@ -20,18 +20,18 @@ impl Sum {
         self.high = sum;
     }
 
-    pub(super) fn merge(&mut self, other: Self) {
+    pub(crate) fn merge(&mut self, other: Self) {
         self.add(other.high);
         self.low += other.low;
     }
 
-    pub(super) fn value(self) -> f64 {
+    pub(crate) fn value(self) -> f64 {
         self.high + self.low
     }
 }
 
 /// Elements of a task. A fixed number, so that the sums do not depend on the number of threads.
-pub(super) const CHUNK: usize = 4096;
+pub(crate) const CHUNK: usize = 4096;
 
 /// Sums several quantities of each element: in parallel within chunks, then chunk after chunk.
 pub(super) fn sums<T: Sync, const N: usize>(

@@ -2,8 +2,8 @@
 
 use super::{Finding, Findings};
 use crate::surface::ClosedOrientedMesh;
-use crate::volumetric::complex::euler_characteristics;
 use crate::volumetric::VolumeMesh;
+use crate::volumetric::complex::euler_characteristics;
 use crate::volumetric::pairing::Pairing;
 use crate::{Cancelled, Monitor};
 
@@ -14,7 +14,8 @@ pub(super) fn check(
     monitor: &Monitor<'_>,
 ) -> Result<(Findings, Vec<i64>), Cancelled> {
     let components = euler_characteristics(&volume.mesh, monitor)?;
-    let characteristics: Vec<i64> = components.counts().iter().map(|counts| counts.euler_characteristic()).collect();
+    let characteristics: Vec<i64> =
+        components.counts().iter().map(|counts| counts.euler_characteristic()).collect();
     let pairing = Pairing::new(surface);
     let mut findings = Findings::default();
     let mut of_surface: Vec<Option<u32>> = vec![None; pairing.characteristics().len()];

@@ -82,7 +82,10 @@ impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Copies { cell: [i, j, k], hexahedra, winding } => {
-                write!(f, "cell ({i}, {j}, {k}) has {hexahedra} hexahedra, the surface winds {winding} times around it")
+                write!(
+                    f,
+                    "cell ({i}, {j}, {k}) has {hexahedra} hexahedra, the surface winds {winding} times around it"
+                )
             }
             Self::Euler { component, characteristic, surface } => write!(
                 f,
@@ -96,7 +99,10 @@ impl fmt::Display for Finding {
                 write!(f, "hexahedra {a} and {b} of triangle {triangle} do not have their side in common")
             }
             Self::Edge { triangles: [s, t], hexahedra: [a, b] } => {
-                write!(f, "triangles {s} and {t} have an edge in a cell where they are in hexahedra {a} and {b}")
+                write!(
+                    f,
+                    "triangles {s} and {t} have an edge in a cell where they are in hexahedra {a} and {b}"
+                )
             }
             Self::Vertices { count } => write!(f, "{count} vertices have no one host"),
         }
