@@ -64,22 +64,25 @@ fn coil(size: u32, laps: usize) -> HexMesh {
 fn shapes() -> Vec<(&'static str, HexMesh, Vec<[u64; 4]>)> {
     let ring = |[x, y, _]: [u32; 3]| x != 1 || y != 1;
     let mut separate = Sheets::new([1; 3]);
-    (separate.add([0; 3]), separate.add([0; 3]));
+    separate.add([0; 3]);
+    separate.add([0; 3]);
     let mut joint = Sheets::new([2, 1, 1]);
     let [a, b, c] = [[0; 3], [1, 0, 0], [1, 0, 0]].map(|cell| joint.add(cell));
-    (joint.join(a, b), joint.join(a, c));
+    joint.join(a, b);
+    joint.join(a, c);
     let mut pair = Sheets::new([1; 3]);
     let (a, b) = (pair.add([0; 3]), pair.add([0; 3]));
     pair.join_side(a, b, 3);
     let mut strips = Sheets::new([3, 1, 1]);
     let [a, b] = [0, 1].map(|_| strips.path((0..3).map(|x| [x, 0, 0])));
-    (strips.join_side(a[0], b[0], 0), strips.join_side(a[2], b[2], 1));
+    strips.join_side(a[0], b[0], 0);
+    strips.join_side(a[2], b[2], 1);
     let mut sphere = Sheets::new([1; 3]);
     let (a, b) = (sphere.add([0; 3]), sphere.add([0; 3]));
     (0..6).for_each(|side| sphere.join_side(a, b, side));
     let mut cross = Sheets::new([2, 1, 1]);
     let four = [[0; 3], [0; 3], [1, 0, 0], [1, 0, 0]].map(|cell| cross.add(cell));
-    (cross.join(four[0], four[2]), cross.join(four[1], four[2]), cross.join(four[1], four[3]));
+    [(0, 2), (1, 2), (1, 3)].iter().for_each(|&(a, b)| cross.join(four[a], four[b]));
     vec![
         ("nothing", sheet([1; 3], |_| false), vec![]),
         ("block", sheet([3, 2, 2], |_| true), vec![[1, 0, 0, 0]]),
