@@ -184,8 +184,8 @@ impl<'a> Search<'a> {
         for (number, &Square(patches)) in problem.squares.iter().enumerate() {
             for patch in patches.map(|patch| patch as usize) {
                 let copies = problem.copies[problem.patches[patch].outer as usize] as usize;
-                for variable in starts[patch]..starts[patch] + copies {
-                    watchers[variable].push(Constraint::Square(number));
+                for watcher in &mut watchers[starts[patch]..starts[patch] + copies] {
+                    watcher.push(Constraint::Square(number));
                 }
             }
         }
@@ -567,7 +567,7 @@ mod tests {
                 })
                 .collect();
             let links = (0..random(4))
-                .filter_map(|_| {
+                .map(|_| {
                     let patch = random(patches.len() as u32);
                     let of = |region: u32| {
                         classes
@@ -579,11 +579,11 @@ mod tests {
                     };
                     let (outer, inner) =
                         (of(patches[patch as usize].outer), of(patches[patch as usize].inner));
-                    Some(Link {
+                    Link {
                         patch,
                         outer: outer[random(outer.len() as u32) as usize],
                         inner: inner[random(inner.len() as u32) as usize],
-                    })
+                    }
                 })
                 .collect();
             let problem = Problem { copies, classes, patches, links, squares: vec![] };

@@ -4,6 +4,7 @@
 mod assembly;
 mod cells;
 mod coarsen;
+mod coarsened;
 mod complex;
 mod copies;
 mod crossings;

@@ -30,6 +30,8 @@ pub struct VolumeParameters {
     pub max_cells: u64,
     /// How often the mesh is coarsened by doubling, beyond what undoes refinements. The default is 0.
     pub coarsenings: u32,
+    /// Whether cells are also halved where Euler characteristics tell that a tunnel or a gap lies within one. The default is yes.
+    pub check_topology: bool,
 }
 
 impl Default for VolumeParameters {
@@ -39,6 +41,7 @@ impl Default for VolumeParameters {
             max_refinements: 3,
             max_cells: 1 << 32,
             coarsenings: 0,
+            check_topology: true,
         }
     }
 }

@@ -4,7 +4,8 @@ use super::error::{Trouble, VolumeError};
 use super::hosts::Hosts;
 use super::mesher::{OnGrid, Stopped, mesh_on_grid};
 use super::pairing::Pairing;
-use super::{HexMesh, Resolution, VolumeParameters};
+use super::verify::{check_euler, place_of};
+use super::{CoarsenError, HexMesh, Resolution, VolumeParameters};
 use crate::Monitor;
 use crate::grid::Grid3;
 use crate::spatial::Box3;
@@ -26,8 +27,35 @@ pub struct VolumeMesh {
     pub windings: Vec<i32>,
     /// Whether the surface allows for other volumes too: the immersion is not simple in the sense of \[Li18\].
     pub ambiguous: bool,
-    /// How often the cells asked for were halved.
+    /// How often the cells asked for were halved before they were fine enough.
     pub refinements: u32,
+    /// How often the mesh was coarsened by doubling after that.
+    pub coarsenings: u32,
+}
+
+impl VolumeMesh {
+    /// How many regions of the grid the hexahedra hold copies of.
+    #[must_use]
+    pub fn region_count(&self) -> usize {
+        self.copies_by_region().len()
+    }
+
+    /// How many copies of regions there are.
+    #[must_use]
+    pub fn copy_count(&self) -> usize {
+        self.copies_by_region().iter().map(|&(_, copies)| copies as usize).sum()
+    }
+
+    /// The regions that hexahedra hold copies of, with how many copies each has.
+    fn copies_by_region(&self) -> Vec<(u32, u32)> {
+        let mut held = vec![false; self.windings.len()];
+        self.regions
+            .iter()
+            .filter(|&&region| region != u32::MAX)
+            .for_each(|&region| held[region as usize] = true);
+        let held = (0..).zip(&held).filter(|&(_, &held)| held);
+        held.map(|(region, _)| (region, self.windings[region as usize].max(0) as u32)).collect()
+    }
 }
 
 /// Meshes the volume that a surface encloses.
@@ -58,9 +86,9 @@ pub fn mesh_volume(
     let mut refinements = 0;
     loop {
         let grid = grid_for(surface, parameters, refinements)?;
-        let stopped = match mesh_on_grid(surface, &pairing, &grid, monitor) {
+        let error = match mesh_on_grid(surface, &pairing, &grid, monitor) {
             Ok(OnGrid { assembled, hosts, windings, ambiguous }) => {
-                return Ok(VolumeMesh {
+                let volume = VolumeMesh {
                     mesh: assembled.mesh,
                     regions: assembled.regions,
                     copies: assembled.copies,
@@ -68,11 +96,15 @@ pub fn mesh_volume(
                     windings,
                     ambiguous,
                     refinements,
-                });
+                    coarsenings: 0,
+                };
+                match fault(&volume, &pairing, parameters, monitor)? {
+                    None => return coarsened(volume, refinements + parameters.coarsenings, monitor),
+                    Some(error) => error,
+                }
             }
-            Err(stopped) => stopped,
+            Err(stopped) => told(stopped, &grid, refinements),
         };
-        let error = told(stopped, &grid, refinements);
         let finer = refinements + 1;
         let more = matches!(error, VolumeError::UnderResolved { .. })
             && finer <= parameters.max_refinements
@@ -82,6 +114,41 @@ pub fn mesh_volume(
         }
         refinements = finer;
     }
+}
+
+/// Whether features of the surface were too fine for the cells though nothing went wrong: a tunnel or a gap within one.
+fn fault(
+    volume: &VolumeMesh,
+    pairing: &Pairing,
+    parameters: &VolumeParameters,
+    monitor: &Monitor<'_>,
+) -> Result<Option<VolumeError>, VolumeError> {
+    if !parameters.check_topology {
+        return Ok(None);
+    }
+    let (findings, _) = check_euler(volume, pairing, monitor)?;
+    let Some(finding) = findings.first.first() else { return Ok(None) };
+    let what = "its Euler characteristic is not half that of its boundary, as where a tunnel or a gap is within one cell";
+    let grid = volume.mesh.grid();
+    let place = place_of(finding, volume, monitor)?;
+    Ok(Some(VolumeError::UnderResolved {
+        place,
+        what,
+        spacing: grid.spacing(),
+        refinements: volume.refinements,
+    }))
+}
+
+/// The mesh coarsened so often, or as often as its topology is kept.
+fn coarsened(mut volume: VolumeMesh, times: u32, monitor: &Monitor<'_>) -> Result<VolumeMesh, VolumeError> {
+    for _ in 0..times {
+        match volume.coarsened(monitor) {
+            Ok((coarse, report)) if report.kept() => volume = coarse,
+            Err(CoarsenError::Cancelled(cancelled)) => return Err(cancelled.into()),
+            Ok(_) | Err(_) => break,
+        }
+    }
+    Ok(volume)
 }
 
 /// The grid of a surface, after some halvings of its cells.

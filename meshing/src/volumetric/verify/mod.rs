@@ -19,9 +19,12 @@ mod embedding;
 mod euler;
 mod windings;
 
+pub(super) use euler::{check as check_euler, place_of};
+
 use std::fmt;
 
 use super::VolumeMesh;
+use super::pairing::Pairing;
 use crate::surface::ClosedOrientedMesh;
 use crate::{Cancelled, Monitor};
 
@@ -193,7 +196,7 @@ pub fn verify(
     monitor: &Monitor<'_>,
 ) -> Result<Verification, Cancelled> {
     let (winding_copies, cells) = windings::check(surface, volume, monitor)?;
-    let (euler, characteristics) = euler::check(surface, volume, monitor)?;
+    let (euler, characteristics) = euler::check(volume, &Pairing::new(surface), monitor)?;
     let embedding = embedding::check(surface, volume, monitor)?;
     Ok(Verification { winding_copies, euler, embedding, cells, characteristics })
 }
