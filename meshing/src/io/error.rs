@@ -1,5 +1,6 @@
 //! What can be wrong with a file, and where: [`ReadError`], [`WriteError`], [`Place`].
 
+use super::CellKind;
 use std::{fmt, io};
 
 /// A place in a file: a line of text or a byte of binary data.
@@ -56,7 +57,7 @@ pub enum ReadError {
         /// What is missing.
         expected: String,
     },
-    /// A face names a vertex that the file does not have.
+    /// A face or cell names a vertex that the file does not have.
     #[error("{at}: vertex index {index} is out of range, the file {has} {vertices} vertices and counts from {base}",
             has = if *.declared { "declares" } else { "has" })]
     IndexOutOfRange {
@@ -89,12 +90,12 @@ pub enum ReadError {
         /// What it is.
         what: String,
     },
-    /// More vertices or triangles than [`super::Limits`] allow.
+    /// More vertices, triangles or cells than [`super::Limits`] allow.
     #[error("{at}: more than {limit} {what}")]
     OverLimit {
         /// Where the limit was passed.
         at: Place,
-        /// `vertices` or `triangles`.
+        /// `vertices`, `triangles` or `cells`.
         what: &'static str,
         /// The limit.
         limit: u64,
@@ -140,7 +141,7 @@ impl ReadError {
     }
 }
 
-/// Why a surface or a grid could not be written.
+/// Why a surface, a grid or a volumetric mesh could not be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -149,6 +150,18 @@ pub enum WriteError {
     IndexOutOfRange {
         /// The triangle.
         triangle: usize,
+        /// The index that it holds.
+        index: u32,
+        /// The number of vertices.
+        vertices: usize,
+    },
+    /// A cell names a vertex that does not exist.
+    #[error("{kind} {cell} names vertex {index}, there are {vertices} vertices")]
+    Corner {
+        /// Its kind.
+        kind: CellKind,
+        /// Its number among those of its kind.
+        cell: usize,
         /// The index that it holds.
         index: u32,
         /// The number of vertices.
@@ -185,7 +198,7 @@ pub enum WriteError {
     /// More elements than the format can count.
     #[error("{count} {what}: the format can hold {limit}")]
     TooMany {
-        /// `vertices` or `triangles`.
+        /// `vertices`, `triangles` or `cells`.
         what: &'static str,
         /// How many there are.
         count: usize,
@@ -211,6 +224,26 @@ pub enum WriteError {
         name: String,
         /// What is wrong with it.
         why: &'static str,
+    },
+    /// There is no field of integers of the name that was asked for as tags.
+    #[error("there is no field {name:?} of one integer for each {place} to take tags from")]
+    NoTags {
+        /// The name.
+        name: String,
+        /// `vertex` or `cell`.
+        place: &'static str,
+    },
+    /// A tag that the format cannot hold.
+    #[error("{place} {number} has the tag {tag}, beyond 0 to {limit}")]
+    Tag {
+        /// `vertex` or `cell`.
+        place: &'static str,
+        /// Its number.
+        number: usize,
+        /// Its tag.
+        tag: i64,
+        /// The largest tag.
+        limit: i64,
     },
     /// The underlying writer failed.
     #[error("cannot write: {0}")]

@@ -1,4 +1,5 @@
-//! Readers and writers of surface files over `Read` and `Write`: OBJ, PLY, STL and OFF; and a writer of grids: VTI.
+//! Readers and writers over `Read` and `Write`: of surface files, OBJ, PLY, STL and OFF; of volumetric meshes, VTU, MSH and MEDIT; and a
+//! writer of grids: VTI.
 //!
 //! **Promises.**
 //! * Every finite coordinate of a text file becomes the nearest f64, and what [`write()`] writes as text or as PLY comes
@@ -14,13 +15,16 @@
 //! * What a soup cannot hold is named: by [`read_reported`] when reading, by [`WriteReport`] when writing.
 //!
 //! **Does not promise.** Materials, normals, texture coordinates and vertex colours are not kept. That the result is a
-//! mesh of any kind: see `surface`.
+//! mesh of any kind: see `surface`. Progress and cancellation: a reader or writer around the file can count bytes, and fail.
 //!
-//! **Method.** \[Murray96\] (OBJ), \[Turk94\] (PLY), \[Burns93\] (STL), \[Phillips93\] (OFF). One pass, linear time, except
-//! polygons that are not convex.
+//! **Method.** \[Murray96\] (OBJ), \[Turk94\] (PLY), \[Burns93\] (STL), \[Phillips93\] (OFF), \[Schroeder06\] (VTU, VTI),
+//! \[Geuzaine09\] (MSH), \[Frey01\] (MEDIT). One pass, linear time, except polygons that are not convex.
 
 mod builder;
+mod data_field;
 mod error;
+mod medit;
+//mod msh;
 mod obj;
 mod off;
 mod ply;
@@ -30,11 +34,22 @@ mod stl;
 mod text;
 mod tokens;
 mod view;
+mod volume_builder;
+mod volume_data;
 mod vti;
+mod vtk;
+mod vtu;
+mod words;
 
+pub use data_field::{DataField, FieldValues};
 pub use error::{Place, ReadError, WriteError};
+pub use medit::{MeditOptions, read_medit, write_medit};
+//pub use msh::{MshOptions, MshVersion, read_msh, write_msh};
 pub use view::SurfaceData;
-pub use vti::{DataArray, VtiEncoding, write_vti};
+pub use volume_data::{CellKind, VolumeData, VolumeView};
+pub use vti::{DataArray, write_vti};
+pub use vtk::VtkEncoding;
+pub use vtu::{read_vtu, write_vtu};
 
 use crate::surface::TriangleSoup;
 use std::fmt;
@@ -99,15 +114,17 @@ pub struct Limits {
     pub max_vertices: u32,
     /// Most triangles; the default is 2^32 - 1.
     pub max_triangles: u32,
+    /// Most cells of a volumetric mesh, with those that are passed over; the default is 2^32 - 1.
+    pub max_cells: u32,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { max_vertices: u32::MAX, max_triangles: u32::MAX }
+        Self { max_vertices: u32::MAX, max_triangles: u32::MAX, max_cells: u32::MAX }
     }
 }
 
-/// What a file held that a [`TriangleSoup`] cannot.
+/// What a file held that a [`TriangleSoup`] or a [`VolumeData`] cannot.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[must_use]
 pub struct ReadReport {
@@ -195,7 +212,7 @@ impl Default for WriteOptions {
     }
 }
 
-/// What of a surface is not in the file that was written.
+/// What of a surface or a volumetric mesh is not in the file that was written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[must_use]
 pub struct WriteReport {
@@ -204,7 +221,7 @@ pub struct WriteReport {
 }
 
 /// A loss on writing. Each says what was lost and how often.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Dropped {
     /// The format has no groups, or a group has an empty name.
@@ -242,6 +259,41 @@ pub enum Dropped {
         /// Number of used vertices that get another number, not counting the shift by those merged.
         vertices: usize,
     },
+    /// A field of a volumetric mesh is not in the file, or not as it was.
+    Field {
+        /// Its name.
+        name: String,
+        /// What was lost of it.
+        loss: FieldLoss,
+    },
+}
+
+/// What a file lost of a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum FieldLoss {
+    /// All of it: the format has no fields, or cannot hold vectors of this length.
+    Everything,
+    /// All of it: the format cannot write its name.
+    Name,
+    /// Integers were written as real numbers, each equal to its integer.
+    Type,
+    /// Integers were rounded to real numbers.
+    Precision,
+    /// Tags keep their numbers, not their name or type.
+    Renamed,
+}
+
+impl fmt::Display for FieldLoss {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Everything => "not written, the format has no place for it",
+            Self::Name => "not written, the format has no place for its name",
+            Self::Type => "integers written as real numbers",
+            Self::Precision => "integers rounded to real numbers",
+            Self::Renamed => "written as tags",
+        })
+    }
 }
 
 impl fmt::Display for Dropped {
@@ -258,6 +310,7 @@ impl fmt::Display for Dropped {
                 write!(f, "{count} vertices merge with another at equal coordinates")
             }
             Self::VertexOrder { vertices } => write!(f, "{vertices} vertices get another number"),
+            Self::Field { name, loss } => write!(f, "field {name:?}: {loss}"),
         }
     }
 }

@@ -128,6 +128,23 @@ impl<R: Read> Source<R> {
         Ok(())
     }
 
+    /// Passes over everything up to and with `end`, in bounded memory.
+    pub(super) fn skip_past(&mut self, end: &[u8]) -> Result<(), ReadError> {
+        loop {
+            let ahead = self.fill(end.len())?;
+            if let Some(at) = ahead.windows(end.len()).position(|window| window == end) {
+                self.consume(at + end.len());
+                return Ok(());
+            }
+            if ahead.len() < end.len() {
+                let at = Place::Byte(self.base + self.end as u64);
+                return Err(ReadError::Truncated { at, expected: shown(end) });
+            }
+            let passed = ahead.len() - end.len() + 1;
+            self.consume(passed);
+        }
+    }
+
     /// The next line without its end, or `None` at the end of the file.
     #[inline]
     pub(super) fn next_line(&mut self) -> Result<Option<&[u8]>, ReadError> {

@@ -391,7 +391,7 @@ fn limits_hold_in_every_format() {
     for (format, options) in PAIRS {
         let (file, _) = written(format, &soup, &options);
         let with = |max_vertices, max_triangles| {
-            io::read(format, &file[..], &Limits { max_vertices, max_triangles })
+            io::read(format, &file[..], &Limits { max_vertices, max_triangles, ..Limits::default() })
                 .map(|soup| soup.positions.len())
         };
         assert_eq!(with(9, 7).unwrap(), 9);

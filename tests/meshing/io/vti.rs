@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use welter_kit::entropy::{Entropy, stream};
 use welter_meshing::grid::Grid3;
-use welter_meshing::io::{DataArray, VtiEncoding, write_vti};
+use welter_meshing::io::{DataArray, VtkEncoding, write_vti};
 
 /// What the reader finds: the attributes of the image, and the arrays of points and cells.
 struct Image {
@@ -95,7 +95,7 @@ fn numbers_come_back_bit_for_bit_in_every_encoding() {
         DataArray { name: "velocity", values: &second, components: 3 },
     ];
     let cells = [DataArray::scalars("volume", &inside)];
-    for encoding in [VtiEncoding::Appended, VtiEncoding::Base64, VtiEncoding::Ascii] {
+    for encoding in [VtkEncoding::Appended, VtkEncoding::Base64, VtkEncoding::Ascii] {
         let mut file = Vec::new();
         write_vti(&mut file, &grid, &points, &cells, encoding).unwrap();
         let image = read(&file);

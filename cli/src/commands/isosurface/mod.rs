@@ -23,7 +23,7 @@ use spec::{Crossing, Spec, Triangles, Wall};
 use std::path::{Path, PathBuf};
 use welter_meshing::field::{AnyField, Offset, ScalarField};
 use welter_meshing::grid::{Grid2, Grid3, Samples};
-use welter_meshing::io::{DataArray, VtiEncoding, WriteError, write_vti};
+use welter_meshing::io::{DataArray, VtkEncoding, WriteError, write_vti};
 use welter_meshing::isosurface::{IsosurfaceError, MarchingCubes, marching_cubes, marching_cubes_open};
 use welter_meshing::remesh::{Equilateral, RemeshError, equilateral};
 use welter_meshing::surface::measure::{angle_statistics, area, signed_volume};
@@ -139,7 +139,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
         .stage(&mut seconds, "sampling", || Samples::of(&grid, &field, &monitor))
         .map_err(|error| Failure::new(Code::Interrupted, error.to_string()))?;
     samples.require_numbers().map_err(|error| undefined(&scene, &IsosurfaceError::from(error)))?;
-    let encoding = if args.writing.ascii { VtiEncoding::Ascii } else { VtiEncoding::Appended };
+    let encoding = if args.writing.ascii { VtkEncoding::Ascii } else { VtkEncoding::Appended };
     for output in outputs.fields {
         console.stage(&mut seconds, "writing", || write_field(output, &samples, encoding))?;
     }
@@ -383,7 +383,7 @@ fn in_words(facts: &[(&'static str, Value)]) -> String {
     lines.collect()
 }
 
-fn write_field(output: Output, samples: &Samples<3>, encoding: VtiEncoding) -> Result<(), Box<Failure>> {
+fn write_field(output: Output, samples: &Samples<3>, encoding: VtkEncoding) -> Result<(), Box<Failure>> {
     let name = output.name().display().to_string();
     output.write(|file| {
         let array = DataArray::scalars(ARRAY, samples.values());

@@ -11,28 +11,16 @@
 //!   of the binary encodings.
 //!
 //! # Method
-//! An XML element `ImageData` with one `Piece`. Binary blocks are little-endian, after their length in bytes as a 64-bit number; they stand
-//! in base64 in their element, or raw after the underscore of `AppendedData`, which is shorter by a quarter but no strict XML.
+//! An XML element `ImageData` with one `Piece`; the arrays are those of `vtk`.
 
-mod base64;
 mod write;
 
 use std::io::Write;
 
 use super::WriteError;
+use super::data_field::check_name;
+use super::vtk::VtkEncoding;
 use crate::grid::Grid3;
-
-/// How the numbers of a VTI file are written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum VtiEncoding {
-    /// Raw bytes behind the XML: the shortest, and quickest to read.
-    #[default]
-    Appended,
-    /// Base64 in the XML.
-    Base64,
-    /// Shortest decimals that give the same `f64` back.
-    Ascii,
-}
 
 /// A named array: one number, or a vector, for each node or for each cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,12 +49,12 @@ impl<'a> DataArray<'a> {
 /// [`WriteError::ArrayLength`], [`WriteError::ArrayName`], or the writer failed.
 ///
 /// ```
-/// use welter_meshing::{DVec3, Monitor, grid::{Grid3, Samples}, io::{DataArray, VtiEncoding, write_vti}};
+/// use welter_meshing::{DVec3, Monitor, grid::{Grid3, Samples}, io::{DataArray, VtkEncoding, write_vti}};
 /// let grid = Grid3::new([0.0; 3], 0.5, [2, 1, 1])?;
 /// let samples = Samples::of(&grid, &|p: DVec3| p.x - 0.25, &Monitor::none())?;
 /// let mut file = Vec::new();
 /// let array = DataArray::scalars("distance", samples.values());
-/// write_vti(&mut file, &grid, &[array], &[], VtiEncoding::Ascii)?;
+/// write_vti(&mut file, &grid, &[array], &[], VtkEncoding::Ascii)?;
 /// let text = String::from_utf8(file)?;
 /// assert!(text.contains(r#"<ImageData WholeExtent="0 2 0 1 0 1" Origin="0 0 0" Spacing="0.5 0.5 0.5">"#));
 /// assert!(text.contains("-0.25 0.25 0.75"));
@@ -77,7 +65,7 @@ pub fn write_vti(
     grid: &Grid3,
     point_arrays: &[DataArray<'_>],
     cell_arrays: &[DataArray<'_>],
-    encoding: VtiEncoding,
+    encoding: VtkEncoding,
 ) -> Result<(), WriteError> {
     for (arrays, places) in [(point_arrays, grid.node_count()), (cell_arrays, grid.cell_count())] {
         for (k, array) in arrays.iter().enumerate() {
@@ -93,17 +81,12 @@ pub fn write_vti(
 }
 
 fn check(array: &DataArray<'_>, places: usize) -> Result<(), WriteError> {
-    let name = || array.name.to_owned();
-    if array.name.is_empty() {
-        return Err(WriteError::ArrayName { name: name(), why: "is empty" });
-    }
-    if array.name.chars().any(char::is_control) {
-        return Err(WriteError::ArrayName { name: name(), why: "has a control character" });
-    }
+    check_name(array.name)?;
     let wanted = places.checked_mul(array.components).filter(|&n| n > 0);
     if wanted != Some(array.values.len()) {
         let (values, components) = (array.values.len(), array.components);
-        return Err(WriteError::ArrayLength { name: name(), values, components, places });
+        let name = array.name.to_owned();
+        return Err(WriteError::ArrayLength { name, values, components, places });
     }
     Ok(())
 }
@@ -118,7 +101,7 @@ mod tests {
         let write = |name: &str, values: usize, components: usize| {
             let (numbers, mut file) = (vec![0.0; values], Vec::new());
             let array = DataArray { name, values: &numbers, components };
-            let result = write_vti(&mut file, &grid, &[array], &[], VtiEncoding::Appended);
+            let result = write_vti(&mut file, &grid, &[array], &[], VtkEncoding::Appended);
             assert_eq!(result.is_err(), file.is_empty());
             result.map_err(|error| error.to_string())
         };
@@ -132,6 +115,6 @@ mod tests {
         assert_eq!(write("a\n", 8, 1).unwrap_err(), "the array name \"a\\n\" has a control character");
         let one = [0.0; 8];
         let twice = [DataArray::scalars("a", &one); 2];
-        assert!(write_vti(Vec::new(), &grid, &twice, &[], VtiEncoding::Ascii).is_err());
+        assert!(write_vti(Vec::new(), &grid, &twice, &[], VtkEncoding::Ascii).is_err());
     }
 }
