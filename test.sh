@@ -3,16 +3,22 @@
 #
 #   ./test.sh           all of it
 #   ./test.sh --quick   format, lints and the unit tests beside the code
+#   ./test.sh --consumers
+#                       all of it, and opens written files with VTK, PyVista and Gmsh too. Once the project writes USD, usd-core
+#                       belongs to these.
 #
 # Needs Rust (rustup; rust-toolchain.toml names the version) and a C compiler. The exact oracles of the tests build GMP,
-# which needs m4 and make: these are installed where that is possible without a question, else named.
+# which needs m4 and make; written files are read with meshio, which needs Python 3.10 or later with venv and pip. These are
+# installed where that is possible without a question, else named. Python packages go to target/venv alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 quick=no
+consumers=no
 for argument in "$@"; do
     case "$argument" in
         --quick) quick=yes ;;
+        --consumers) consumers=yes ;;
         -h | --help)
             sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' test.sh
             exit 0
@@ -82,6 +88,25 @@ require_tools() {
     cargo clippy --version > /dev/null 2>&1 || die "clippy is missing: rustup component add clippy"
 }
 
+# Makes a Python environment under target/ with the packages that a file lists, unless it is there already.
+python_environment() {
+    local folder="target/$1" list="tests/consumers/$2"
+    if [ -x "$folder/bin/python" ] && cmp -s "$list" "$folder/installed.txt"; then
+        return
+    fi
+    echo "== installing the Python packages of $list into $folder"
+    if ! have python3 || ! python3 -c 'import ensurepip, venv' 2> /dev/null; then
+        install_packages python3 python3-venv || install_packages python3 ||
+            die "Python with venv is missing: apt-get install python3 python3-venv, dnf install python3, apk add python3 or brew install python"
+    fi
+    rm -rf "$folder"
+    python3 -m venv "$folder" ||
+        die "python3 -m venv fails: apt-get install python3-venv, or any Python of 3.10 or later with venv and pip"
+    "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --requirement "$list" ||
+        die "pip cannot install the packages of $list (is there a network?): do it by hand, $folder/bin/python -m pip install -r $list && cp $list $folder/installed.txt"
+    cp "$list" "$folder/installed.txt"
+}
+
 # Runs one stage, and prints how long it took or that it failed.
 stage() {
     local name="$1" started="$SECONDS"
@@ -102,5 +127,11 @@ if [ "$quick" = yes ]; then
 else
     stage docs env RUSTDOCFLAGS="-D warnings" cargo docs
     stage doctest cargo doctest
+    python_environment venv requirements.txt
+    export WELTER_MESHIO_PYTHON_REQUIRED=1
+    if [ "$consumers" = yes ]; then
+        python_environment venv-consumers requirements-all.txt
+        export WELTER_CONSUMERS_PYTHON_REQUIRED=1
+    fi
     stage unit cargo unit
 fi

@@ -15,4 +15,5 @@ mod remesh;
 mod shapes;
 mod spatial;
 mod surface;
+mod volume_files;
 mod volumetric;

@@ -24,6 +24,8 @@ pub(super) struct Source<R> {
     at_end: bool,
     /// Number of lines taken.
     line: u64,
+    /// Offset in the file of the line last taken.
+    line_begin: u64,
     /// Lines end at `\r` alone: a `\n` after it belongs to what follows.
     cr_only: bool,
 }
@@ -38,6 +40,7 @@ impl<R: Read> Source<R> {
             base: 0,
             at_end: false,
             line: 0,
+            line_begin: 0,
             cr_only: false,
         }
     }
@@ -55,6 +58,11 @@ impl<R: Read> Source<R> {
     /// The line last taken, as a place; the first before any was taken.
     pub(super) fn line(&self) -> Place {
         Place::Line(self.line.max(1))
+    }
+
+    /// The first byte of the line last taken, as a place.
+    pub(super) fn line_begin(&self) -> Place {
+        Place::Byte(self.line_begin)
     }
 
     /// The line to be taken next, as a place.
@@ -178,6 +186,7 @@ impl<R: Read> Source<R> {
             }
             scanned = self.end - self.start;
             if self.at_end {
+                self.line_begin = self.base + self.start as u64;
                 self.start = self.end;
                 self.line += u64::from(scanned > 0);
                 return Ok((scanned > 0).then_some((self.end - scanned, self.end)));
@@ -202,6 +211,7 @@ impl<R: Read> Source<R> {
             }
         }
         let from = self.start;
+        self.line_begin = self.base + from as u64;
         self.start += taken;
         self.line += 1;
         Ok((from, from + length))

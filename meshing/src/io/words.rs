@@ -15,14 +15,21 @@ pub(super) struct Words<R> {
     line: Vec<u8>,
     taken: usize,
     at: Place,
+    /// Places are bytes: lines mean nothing to who looks into a file that is binary in part.
+    pub(super) in_bytes: bool,
 }
 
 impl<R: Read> Words<R> {
     pub(super) fn new(source: Source<R>, comment: Option<u8>) -> Self {
-        Self { source, comment, line: Vec::new(), taken: 0, at: Place::Line(1) }
+        Self { source, comment, line: Vec::new(), taken: 0, at: Place::Line(1), in_bytes: false }
     }
 
-    /// Where the word last taken stands.
+    /// Where the file ended: its last line, or the byte after the last.
+    pub(super) fn end(&self) -> Place {
+        if self.in_bytes { self.source.byte() } else { self.source.line() }
+    }
+
+    /// Where the line of the word last taken stands.
     pub(super) fn place(&self) -> Place {
         self.at
     }
@@ -35,11 +42,6 @@ impl<R: Read> Words<R> {
     /// What is left of the line in work.
     pub(super) fn rest_of_line(&self) -> &[u8] {
         self.line[self.taken..].trim_ascii()
-    }
-
-    /// Passes over what is left of the line in work.
-    pub(super) fn skip_line(&mut self) {
-        self.taken = self.line.len();
     }
 
     /// The next word; none at the end of the file.
@@ -65,7 +67,7 @@ impl<R: Read> Words<R> {
         let Some((line, at)) = self.source.next_filled_line(self.comment)? else { return Ok(false) };
         let end = self.comment.and_then(|comment| line.iter().position(|&byte| byte == comment));
         self.line.extend_from_slice(&line[..end.unwrap_or(line.len())]);
-        self.at = at;
+        self.at = if self.in_bytes { self.source.line_begin() } else { at };
         Ok(true)
     }
 
@@ -85,7 +87,7 @@ impl<R: Read> Words<R> {
         // Asked in two steps: the borrow of a word found would last over the error.
         let rest = &self.line[self.taken..];
         if rest.iter().all(u8::is_ascii_whitespace) && !self.begin_line()? {
-            return Err(ReadError::Truncated { at: self.source.line(), expected: expected() });
+            return Err(ReadError::Truncated { at: self.end(), expected: expected() });
         }
         Ok(self.word()?.unwrap_or_default())
     }

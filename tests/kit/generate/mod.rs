@@ -1,5 +1,5 @@
 //! Generators of hard input: coordinates ([`number`]) and configurations of points ([`Kind`],
-//! [`graded`]) and their motions ([`Movement`]), systems of linear equations ([`system`]).
+//! [`graded`]) and their motions ([`Movement`]), systems of linear equations ([`system`]), volumetric meshes ([`volumes`]).
 
 pub mod graded;
 mod movement;
@@ -7,6 +7,7 @@ pub mod number;
 mod points;
 mod strategy;
 mod systems;
+pub mod volumes;
 
 pub use movement::Movement;
 pub use points::Kind;

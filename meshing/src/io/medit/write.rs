@@ -28,7 +28,9 @@ pub(super) fn write(
     };
     // Version 2 stands for f64 and integers of 32 bits, version 4 for integers of 64.
     let wide = |field: Option<&DataField<'_>>| {
-        field.is_some_and(|field| (0..field.values.len()).any(|k| i32::try_from(reference(Some(field), k)).is_err()))
+        field.is_some_and(|field| {
+            (0..field.values.len()).any(|k| i32::try_from(reference(Some(field), k)).is_err())
+        })
     };
     let counts_fit = mesh.vertices.max(mesh.cell_count()) <= i32::MAX as usize;
     let version = if counts_fit && !wide(vertices) && !wide(cells) { 2 } else { 4 };

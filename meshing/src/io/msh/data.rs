@@ -42,7 +42,8 @@ pub(super) fn dropped(mesh: &VolumeView<'_>, tags: Option<&str>) -> Vec<Dropped>
             if !comes_back(field) {
                 drop(field, FieldLoss::Renamed);
             }
-        } else if let Some(loss) = left_out(field, mesh.cell_count(), tags).or_else(|| changed(&field.values)) {
+        } else if let Some(loss) = left_out(field, mesh.cell_count(), tags).or_else(|| changed(&field.values))
+        {
             drop(field, loss);
         }
     }

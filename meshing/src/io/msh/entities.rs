@@ -31,7 +31,8 @@ impl<'a> Tags<'a> {
             field.name == name && field.components == 1 && field.values.is_integer()
         };
         let field = mesh.cell_fields.iter().find(fits);
-        let values = &field.ok_or_else(|| WriteError::NoTags { name: name.to_owned(), place: "cell" })?.values;
+        let values =
+            &field.ok_or_else(|| WriteError::NoTags { name: name.to_owned(), place: "cell" })?.values;
         let mut used = BTreeSet::new();
         for number in 0..values.len() {
             let tag = values.integer(number).expect("the field was found to hold integers");
@@ -67,9 +68,11 @@ impl<'a> Tags<'a> {
             for index in 0..mesh.count(kind) {
                 let corners = mesh.corners(kind, index);
                 let first = (mesh.position)(corners[0] as usize);
-                let entity = entities
-                    .entry((kind.dimension(), self.entity(cell)))
-                    .or_insert(Entity { physical: self.physical(cell), min: first, max: first });
+                let entity = entities.entry((kind.dimension(), self.entity(cell))).or_insert(Entity {
+                    physical: self.physical(cell),
+                    min: first,
+                    max: first,
+                });
                 for &corner in corners {
                     entity.include((mesh.position)(corner as usize));
                 }

@@ -21,15 +21,15 @@ mod data;
 mod entities;
 mod ids;
 mod input;
+mod output;
 mod read;
 mod read_data;
-mod read_two;
 mod read_four;
+mod read_two;
 mod types;
 mod write_data;
-mod write_two;
 mod write_four;
-mod output;
+mod write_two;
 
 use std::io::{Read, Write};
 

@@ -61,7 +61,9 @@ fn write_nodes<W: Write>(
         out.size(number)?;
     }
     out.end_line()?;
-    if let Some((dimension, entity)) = entities.keys().copied().max_by_key(|&(d, e)| (d, std::cmp::Reverse(e))) {
+    if let Some((dimension, entity)) =
+        entities.keys().copied().max_by_key(|&(d, e)| (d, std::cmp::Reverse(e)))
+    {
         for number in [dimension as i32, entity, 0] {
             out.int(number)?;
         }
