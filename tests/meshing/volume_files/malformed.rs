@@ -22,6 +22,9 @@ fn truncation_at_every_byte_is_an_error() {
             match form.read(&file[..cut]) {
                 Err(ReadError::Truncated { .. } | ReadError::Empty { .. } | ReadError::Unexpected { .. }) => {
                 }
+                // Version 4 is one, and is not supported.
+                Err(ReadError::Unsupported { .. }) if file[..cut].ends_with(b"\n4") => {}
+                Err(ReadError::Unsupported { .. }) if file[..cut].ends_with(b"\n4.") => {}
                 Err(other) => panic!("{form:?} at {cut}: {other}"),
                 // Only white space is missing, or whole sections of data.
                 Ok((read, _)) => {
@@ -46,7 +49,9 @@ fn changed_bytes_never_panic_and_never_make_more_than_the_file_holds() {
     for (form, file, mesh) in files() {
         let mut unchanged = 0;
         for at in 0..file.len() {
-            for change in [0, 0xff, b'9', b'-', b'<', b' ', b'\n', file[at] ^ 1, file[at] ^ 0x80] {
+            let changes = [0, 0xff, b'9', b'-', b'<', b' ', b'\n', file[at] ^ 1, file[at] ^ 0x80];
+            // Two of them at each byte, by turns.
+            for change in [changes[at % 9], changes[(at / 9 + 4) % 9]] {
                 let mut changed = file.clone();
                 changed[at] = change;
                 if let Ok((read, _)) = form.read(&changed) {
@@ -63,7 +68,7 @@ fn changed_bytes_never_panic_and_never_make_more_than_the_file_holds() {
             }
         }
         // Of white space, comments and unread numbers there are some, but most of a file matters.
-        assert!(unchanged < 9 * file.len() as u32 / 2, "{form:?}: {unchanged} of {}", 9 * file.len());
+        assert!(unchanged < file.len() as u32, "{form:?}: {unchanged} of {}", 2 * file.len());
     }
 }
 
@@ -106,40 +111,6 @@ fn vtu_says_the_byte() {
     ] {
         assert_eq!(read(file), expected, "{file}");
     }
-    const POINT: &str =
-        "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0</DataArray></Points>";
-    let cells = |connectivity: &str, offsets: &str, types: &str| {
-        let array = |name: &str, kind: &str, numbers: &str| {
-            format!("<DataArray type=\"{kind}\" Name=\"{name}\">{numbers}</DataArray>")
-        };
-        grid(&format!(
-            "<Piece NumberOfPoints=\"1\" NumberOfCells=\"1\">{POINT}<Cells>{}{}{}</Cells></Piece>",
-            array("connectivity", "Int32", connectivity),
-            array("offsets", "Int32", offsets),
-            array("types", "UInt8", types)
-        ))
-    };
-    assert_eq!(cells("0 0 0", "3", "5"), "no error");
-    for (found, expected) in [
-        (
-            cells("0 0 1", "3", "5"),
-            "byte 204: vertex index 1 is out of range, the file declares 1 vertices and counts from 0",
-        ),
-        (
-            cells("0 0 -1", "3", "5"),
-            "byte 204: vertex index -1 is out of range, the file declares 1 vertices and counts from 0",
-        ),
-        (cells("0 0 0", "4", "5"), "byte 268: expected the offset of cell 0 from 0 to 3, found 4"),
-        (cells("0 0 0", "-1", "5"), "byte 268: expected the offset of cell 0 from 0 to 3, found -1"),
-        (cells("0 0 0", "2", "5"), "byte 268: expected 3 corners of cell 0, a triangle, found 2"),
-        (cells("0 0 0 0", "3", "5"), "byte 204: expected 3 corners, as many as the cells have, found 4"),
-        (cells("0 0 0", "3 4", "5"), "byte 316: expected no more than 1 numbers, found `4`"),
-        (cells("0 0 0", "", "5"), "byte 268: expected an array of 1 numbers, found 0 numbers"),
-        (cells("0 0 0", "3", "x"), "byte 377: expected a number of its type, found `x`"),
-        (cells("0 0 0", "3", "256"), "byte 377: expected a number of its type, found `256`"),
-    ] {
-        assert_eq!(found, expected);
-    }
     for (inside, expected) in [
         ("<Piece NumberOfPoints=\"1\"/>", "byte 51: expected attribute `NumberOfCells`, found nothing"),
         (
@@ -160,47 +131,101 @@ fn vtu_says_the_byte() {
         ),
         (
             "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/><Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"/>",
-            "byte 97: a second piece is not supported",
+            "byte 96: a second piece is not supported",
         ),
     ] {
         assert_eq!(grid(inside), expected, "{inside}");
     }
-    let points = |array: &str| {
-        grid(&format!("<Piece NumberOfPoints=\"1\" NumberOfCells=\"0\"><Points>{array}</Points></Piece>"))
+}
+
+#[test]
+fn vtu_cells_say_the_byte() {
+    const POINT: &str =
+        "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0</DataArray></Points>";
+    let cells = |connectivity: &str, offsets: &str, types: &str| {
+        let array = |name: &str, numbers: &str| {
+            let kind = if name == "types" { "UInt8" } else { "Int32" };
+            format!("<DataArray Name=\"{name}\" type=\"{kind}\">{numbers}</DataArray>")
+        };
+        let arrays =
+            array("connectivity", connectivity) + &array("offsets", offsets) + &array("types", types);
+        format!(
+            "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"1\" NumberOfCells=\"1\">{POINT}\
+             <Cells>{arrays}</Cells></Piece></UnstructuredGrid></VTKFile>"
+        )
     };
-    for (array, expected) in [
-        ("<DataArray type=\"Half\"/>", "byte 104: expected a number type of VTK as `type`, found `Half`"),
-        ("<DataArray type=\"Float32\">1</DataArray>", "byte 104: expected points of 3 components, found 1"),
+    let read = |file: &str| message(read_vtu(file.as_bytes(), &Limits::default()));
+    assert_eq!(read(&cells("0 0 0", "3", "5")), "no error");
+    let (corners, ends) = ("<DataArray Name=\"connectivity\"", "<DataArray Name=\"offsets\"");
+    for (file, place, expected) in [
         (
-            "<DataArray type=\"Int8\" NumberOfComponents=\"3\">1 2 3</DataArray>",
-            "byte 104: expected points of type `Float64` or `Float32`, found `integers`",
+            cells("0 0 1", "3", "5"),
+            corners,
+            "vertex index 1 is out of range, the file declares 1 vertices and counts from 0",
         ),
         (
-            "<DataArray type=\"Float64\" NumberOfComponents=\"0\"/>",
-            "byte 104: expected a number of components, found 0",
+            cells("0 0 -1", "3", "5"),
+            corners,
+            "vertex index -1 is out of range, the file declares 1 vertices and counts from 0",
+        ),
+        (cells("0 0 0", "4", "5"), ends, "expected the offset of cell 0 from 0 to 3, found 4"),
+        (cells("0 0 0", "-1", "5"), ends, "expected the offset of cell 0 from 0 to 3, found -1"),
+        (cells("0 0 0", "2", "5"), ends, "expected 3 corners of cell 0, a triangle, found 2"),
+        (cells("0 0 0 0", "3", "5"), corners, "expected 3 corners, as many as the cells have, found 4"),
+        (cells("0 0 0", "3 4", "5"), "4</", "expected no more than 1 numbers, found `4`"),
+        (cells("0 0 0", "", "5"), ends, "expected an array of 1 numbers, found 0 numbers"),
+        (cells("0 0 0", "3", "x"), "x</", "expected a number of its type, found `x`"),
+        (cells("0 0 0", "3", "256"), "256", "expected a number of its type, found `256`"),
+    ] {
+        assert_eq!(read(&file), format!("byte {}: {expected}", file.find(place).unwrap()));
+    }
+}
+
+#[test]
+fn vtu_arrays_say_the_byte() {
+    const DOUBLES: &str = "type=\"Float64\" NumberOfComponents=\"3\"";
+    for (array, place, expected) in [
+        ("type=\"Half\">".to_owned(), "<DataArray", "expected a number type of VTK as `type`, found `Half`"),
+        ("type=\"Float32\">1".to_owned(), "<DataArray", "expected points of 3 components, found 1"),
+        (
+            "type=\"Int8\" NumberOfComponents=\"3\">1 2 3".to_owned(),
+            "<DataArray",
+            "expected points of type `Float64` or `Float32`, found `integers`",
         ),
         (
-            "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"appended\"/>",
-            "byte 104: expected the offset of an appended array, found nothing",
+            "type=\"Float64\" NumberOfComponents=\"0\">".to_owned(),
+            "<DataArray",
+            "expected a number of components, found 0",
         ),
         (
-            "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>",
-            "byte 104: expected appended data behind the XML, found nothing",
+            format!("{DOUBLES} format=\"appended\">"),
+            "<DataArray",
+            "expected the offset of an appended array, found nothing",
         ),
         (
-            "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">FAAAAA==</DataArray>",
-            "byte 171: expected 3 numbers of 8 bytes, found 20 bytes",
+            format!("{DOUBLES} format=\"appended\" offset=\"0\">"),
+            "<DataArray",
+            "expected appended data behind the XML, found nothing",
         ),
+        // In each the first characters are the length in bytes: 20, then 24.
         (
-            "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">GAAA!</DataArray>",
-            "byte 172: expected a character of base64, found `!`",
+            format!("{DOUBLES} format=\"binary\">FAAAAA=="),
+            "=</DataArray",
+            "expected 3 numbers of 8 bytes, found 20 bytes",
         ),
+        (format!("{DOUBLES} format=\"binary\">GAAA!"), "!</", "expected a character of base64, found `!`"),
         (
-            "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">GAAAAA==</DataArray>",
-            "byte 189: expected 24 bytes more before the end of the array, found nothing",
+            format!("{DOUBLES} format=\"binary\">GAAAAA=="),
+            "</Points>",
+            "expected 24 bytes more before the end of the array, found nothing",
         ),
     ] {
-        assert_eq!(points(array), expected, "{array}");
+        let file = format!(
+            "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"1\" NumberOfCells=\"0\"><Points>\
+             <DataArray {array}</DataArray></Points></Piece></UnstructuredGrid></VTKFile>"
+        );
+        let error = message(read_vtu(file.as_bytes(), &Limits::default()));
+        assert_eq!(error, format!("byte {}: {expected}", file.find(place).unwrap()), "{array}");
     }
 }
 
