@@ -88,7 +88,6 @@ impl HexMesh {
     }
 
     /// Takes over arrays of which the promises are known by their construction.
-    #[allow(dead_code)]
     pub(crate) fn by_construction(
         grid: Grid3,
         nodes: Vec<u64>,
@@ -121,6 +120,19 @@ impl HexMesh {
             }
         }
         Ok(())
+    }
+
+    /// Calls `f` with the mesh of some of the hexahedra, ascending, and all vertices.
+    pub(crate) fn with_some<T>(&mut self, some: &[u32], f: impl FnOnce(&Self) -> T) -> T {
+        let part = Self {
+            grid: self.grid,
+            nodes: std::mem::take(&mut self.nodes),
+            hexahedra: some.iter().map(|&h| self.hexahedra[h as usize]).collect(),
+            cells: some.iter().map(|&h| self.cells[h as usize]).collect(),
+        };
+        let result = f(&part);
+        self.nodes = part.nodes;
+        result
     }
 
     /// The grid.

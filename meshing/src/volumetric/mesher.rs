@@ -2,6 +2,7 @@
 
 use super::assembly::{Assembled, assemble};
 use super::cells::CellHexahedra;
+use super::characteristic::between_surface;
 use super::crossings::Crossings;
 use super::error::{Place, Trouble};
 use super::extension::Extension;
@@ -22,6 +23,8 @@ pub(super) struct OnGrid {
     pub(super) assembled: Assembled,
     pub(super) hosts: Hosts,
     pub(super) windings: Vec<i32>,
+    /// What cells that the surface does not meet add to the Euler characteristic.
+    pub(super) between_surface: i64,
     pub(super) ambiguous: bool,
 }
 
@@ -95,7 +98,13 @@ fn sew(
     let assembled = assemble(*cut, regions, &sheets, &cells, &outside, monitor)?;
     let became = |h: u32| assembled.of_surface[cells.of_extension(h) as usize];
     let hosts = Hosts::new(mesh, cut.grid, cut.extension, became);
-    Ok(OnGrid { assembled, hosts, windings: regions.windings().to_vec(), ambiguous: sheets.ambiguous() })
+    Ok(OnGrid {
+        assembled,
+        hosts,
+        windings: regions.windings().to_vec(),
+        between_surface: between_surface(cut, regions),
+        ambiguous: sheets.ambiguous(),
+    })
 }
 
 /// Where something went wrong.

@@ -3,6 +3,7 @@
 
 mod assembly;
 mod cells;
+mod characteristic;
 mod coarsen;
 mod coarsened;
 mod complex;

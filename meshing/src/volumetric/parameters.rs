@@ -30,7 +30,8 @@ pub struct VolumeParameters {
     pub max_cells: u64,
     /// How often the mesh is coarsened by doubling, beyond what undoes refinements. The default is 0.
     pub coarsenings: u32,
-    /// Whether cells are also halved where Euler characteristics tell that a tunnel or a gap lies within one. The default is yes.
+    /// Whether cells are also halved where Euler characteristics, summed over all components, tell that a tunnel or a gap lies within one. The
+    /// default is yes. [`verify`](super::verify) compares them component by component.
     pub check_topology: bool,
 }
 

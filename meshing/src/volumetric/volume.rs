@@ -5,7 +5,7 @@ use super::hosts::Hosts;
 use super::mesher::{OnGrid, Stopped, mesh_on_grid};
 use super::pairing::Pairing;
 use super::verify::{check_euler, place_of};
-use super::{CoarsenError, HexMesh, Resolution, VolumeParameters};
+use super::{CoarsenError, HexMesh, Resolution, VolumeParameters, euler_characteristics};
 use crate::Monitor;
 use crate::grid::Grid3;
 use crate::spatial::Box3;
@@ -87,7 +87,14 @@ pub fn mesh_volume(
     loop {
         let grid = grid_for(surface, parameters, refinements)?;
         let error = match mesh_on_grid(surface, &pairing, &grid, monitor) {
-            Ok(OnGrid { assembled, hosts, windings, ambiguous }) => {
+            Ok(OnGrid { mut assembled, hosts, windings, between_surface, ambiguous }) => {
+                let doubtful = parameters.check_topology && {
+                    let at_surface = assembled
+                        .mesh
+                        .with_some(&assembled.of_surface, |part| euler_characteristics(part, monitor))?;
+                    let sum = at_surface.total().euler_characteristic() + between_surface;
+                    2 * sum != pairing.characteristics().iter().sum::<i64>()
+                };
                 let volume = VolumeMesh {
                     mesh: assembled.mesh,
                     regions: assembled.regions,
@@ -98,7 +105,7 @@ pub fn mesh_volume(
                     refinements,
                     coarsenings: 0,
                 };
-                match fault(&volume, &pairing, parameters, monitor)? {
+                match if doubtful { fault(&volume, &pairing, monitor)? } else { None } {
                     None => return coarsened(volume, refinements + parameters.coarsenings, monitor),
                     Some(error) => error,
                 }
@@ -120,12 +127,8 @@ pub fn mesh_volume(
 fn fault(
     volume: &VolumeMesh,
     pairing: &Pairing,
-    parameters: &VolumeParameters,
     monitor: &Monitor<'_>,
 ) -> Result<Option<VolumeError>, VolumeError> {
-    if !parameters.check_topology {
-        return Ok(None);
-    }
     let (findings, _) = check_euler(volume, pairing, monitor)?;
     let Some(finding) = findings.first.first() else { return Ok(None) };
     let what = "its Euler characteristic is not half that of its boundary, as where a tunnel or a gap is within one cell";
