@@ -56,7 +56,7 @@ impl fmt::Display for CellKind {
 
 /// The corner of a hexahedron of ours that each place of one in a file of VTK, Gmsh or MEDIT holds: these go around the lower side,
 /// then around the upper. The order is its own inverse.
-const AROUND: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
+pub(super) const AROUND: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
 
 /// The corners of a cell of ours in the order of files, or the other way; as many as the kind has.
 #[inline]

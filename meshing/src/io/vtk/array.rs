@@ -13,7 +13,7 @@ const NUMBERS_A_LINE: usize = 12;
 const GATHERED: usize = 4096;
 
 /// Appends the numbers of a place: a point, a cell.
-type Row<'a, T> = Box<dyn Fn(usize, &mut Vec<T>) + 'a>;
+pub(in crate::io) type Row<'a, T> = Box<dyn Fn(usize, &mut Vec<T>) + 'a>;
 
 /// Where numbers come from, by type.
 pub(in crate::io) enum Numbers<'a> {

@@ -6,7 +6,7 @@
 mod array;
 mod base64;
 
-pub(super) use array::{Array, Numbers};
+pub(super) use array::{Array, Numbers, Row};
 pub(super) use base64::Decoder;
 
 use std::io::{self, Write};

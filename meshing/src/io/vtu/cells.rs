@@ -5,21 +5,19 @@ use super::piece::Piece;
 use crate::DVec3;
 use crate::io::error::{Place, ReadError};
 use crate::io::volume_builder::VolumeBuilder;
-use crate::io::volume_data::vertex_index;
+use crate::io::volume_data::{AROUND, vertex_index};
 use crate::io::{CellKind, DataField, FieldValues, ReadReport, VolumeData};
-
-/// How VTK orders the corners of a voxel and of a pixel: along x, then y, then z. Ours go around in files.
-const VOXEL: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
 
 /// Our kind of a cell of VTK, and for each of its corners in the order of files the place where VTK has it.
 fn kind(vtk_type: i64) -> Option<(CellKind, &'static [usize])> {
+    // VTK orders the corners of voxels and pixels as we do: along x, then y, then z.
     const STRAIGHT: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
     Some(match vtk_type {
         5 => (CellKind::Triangle, &STRAIGHT[..3]),
-        8 => (CellKind::Quadrilateral, &VOXEL[..4]),
+        8 => (CellKind::Quadrilateral, &AROUND[..4]),
         9 => (CellKind::Quadrilateral, &STRAIGHT[..4]),
         10 => (CellKind::Tetrahedron, &STRAIGHT[..4]),
-        11 => (CellKind::Hexahedron, &VOXEL),
+        11 => (CellKind::Hexahedron, &AROUND),
         12 => (CellKind::Hexahedron, &STRAIGHT),
         _ => return None,
     })
@@ -169,7 +167,7 @@ impl Cells<'_> {
     }
 
     fn corner(&self, index: i64, vertices: usize) -> Result<u32, ReadError> {
-        vertex_index(index, vertices).ok_or_else(|| ReadError::IndexOutOfRange {
+        vertex_index(index, vertices).ok_or(ReadError::IndexOutOfRange {
             at: self.at,
             index,
             vertices: vertices as u64,

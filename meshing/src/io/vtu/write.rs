@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use crate::io::volume_data::in_file_order;
-use crate::io::vtk::{self, Array, Numbers, VtkEncoding};
+use crate::io::vtk::{self, Array, Numbers, Row, VtkEncoding};
 use crate::io::{CellKind, DataField, FieldValues, VolumeView};
 
 /// VTK's number of a kind of cell.
@@ -39,7 +39,7 @@ pub(super) fn write(output: &mut impl Write, mesh: &VolumeView<'_>, encoding: Vt
 }
 
 fn field_array<'a>(field: &'a DataField<'_>, places: usize) -> Array<'a> {
-    fn row<'a, T: Copy>(values: &'a [T], components: usize) -> Box<dyn Fn(usize, &mut Vec<T>) + 'a> {
+    fn row<'a, T: Copy>(values: &'a [T], components: usize) -> Row<'a, T> {
         Box::new(move |place, numbers| numbers.extend_from_slice(&values[place * components..][..components]))
     }
     let numbers = match &field.values {
