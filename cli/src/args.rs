@@ -1,6 +1,8 @@
 //! The command line: global options and the list of commands.
 
-use crate::commands::{ccd, check, completions, convert, demo, doctor, info, isosurface, render, shape};
+use crate::commands::{
+    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, shape,
+};
 use crate::progress::ProgressMode;
 use clap::{Parser, Subcommand, value_parser};
 
@@ -16,13 +18,15 @@ pub(crate) struct Cli {
 
 const AFTER: &str = "\
 Exit codes: 0 ok, 1 own bug, 2 usage, 3 bad geometry, 4 unreadable or unsupported file, 5 bad scene, 6 would
-pass the memory limit, 7 output cannot be written, 9 verification failed, 130 interrupted.
+pass the memory limit, 7 output cannot be written, 8 did not converge or time limit, 9 verification failed,
+130 interrupted.
 `welter doctor --codes` lists every error code.
 
 First steps:
   welter demo                       a self-intersecting surface, checked exactly, with a picture
   welter check part.stl             is it closed, oriented, and where does it intersect itself?
-  welter check --json *.obj         the same for scripts";
+  welter check --json *.obj         the same for scripts
+  welter mesh part.stl -o part.vtu  its volume as hexahedra; where it overlaps itself the sheets stay apart";
 
 /// Options of every command.
 #[derive(clap::Args, Clone, Debug)]
@@ -57,6 +61,7 @@ pub(crate) enum Command {
     Demo(demo::Args),
     Shape(shape::Args),
     Isosurface(isosurface::Args),
+    Mesh(mesh::Args),
     Check(check::Args),
     Ccd(ccd::Args),
     Convert(convert::Args),

@@ -62,6 +62,8 @@ codes! {
         "the rows of an edge-edge query and of a vertex-face query look the same";
     TextNotDrawn = "W2008", 2, "text that cannot be drawn",
         "a surface needs at least one visible character, and time and memory for the last";
+    NoSuchCells = "W2009", 2, "no cells of this size",
+        "the nodes of a grid must have exact coordinates that can be numbered";
 
     IndexOutOfRange = "W3010", 3, "vertex index out of range",
         "a corner that does not exist has no position";
@@ -78,6 +80,8 @@ codes! {
         "an edge with more than two triangles or a vertex with more than one fan has no single inside";
     SelfIntersecting = "W3024", 3, "self-intersecting",
         "methods that take an embedded surface give wrong answers where it passes through itself";
+    InsideOut = "W3025", 3, "inside out",
+        "no volume has a boundary that winds around it the wrong way";
 
     NotFound = "W4001", 4, "no such file or folder", "there is nothing to read";
     UnknownFormat = "W4002", 4, "unknown file format",
@@ -111,6 +115,10 @@ codes! {
     OverMemory = "W6001", 6, "would pass the memory limit",
         "going on would end in swapping or in the system killing the process";
     OverCount = "W6002", 6, "more elements than can be numbered", "vertices and triangles are numbered with 32 bits";
+    TooManySheets = "W6003", 6, "too many sheets over one another",
+        "which of them belong together is found by trying, and there are too many ways to try";
+    OverCells = "W6004", 6, "more cells than allowed",
+        "time and memory grow with the number of cells";
 
     FolderMissing = "W7001", 7, "output folder missing", "the result could not be written after the work";
     NotWritable = "W7002", 7, "output not writable", "the result could not be written after the work";
@@ -118,10 +126,17 @@ codes! {
     WriteFailed = "W7004", 7, "writing failed", "the result is not whole; the unfinished file was removed";
     OutputIsDirectory = "W7005", 7, "output is a directory", "a file cannot take the place of a directory";
 
+    UnderResolved = "W8001", 8, "features too fine for the cells",
+        "where cells are larger than the distance between sheets, these cannot be told apart";
+    TimeLimit = "W8002", 8, "time limit reached",
+        "what was not done by then is missing from the result";
+
     FalseAnswers = "W9001", 9, "answers differ from the known ones",
         "an answer that differs from the known one is wrong, or the known one is";
     NoKnownAnswers = "W9002", 9, "no known answers",
         "an answer without a known one to compare with may be right or wrong";
+    MeshNotVerified = "W9003", 9, "mesh not verified",
+        "a mesh that does not fit its surface is a bug, or the surface is beyond what the method can do";
 }
 
 #[cfg(test)]

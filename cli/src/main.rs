@@ -12,9 +12,11 @@
 
 mod args;
 mod bug;
+mod closed;
 mod codes;
 mod commands;
 mod console;
+mod cutaway;
 mod examine;
 mod failure;
 mod html;

@@ -74,7 +74,7 @@ pub(crate) fn parse_cut(text: &str) -> Result<Cut, String> {
     cut.ok_or_else(|| "an axis and a number are wanted, such as z=0.5".to_owned())
 }
 
-fn parse_camera(text: &str) -> Result<Camera, String> {
+pub(crate) fn parse_camera(text: &str) -> Result<Camera, String> {
     let numbers: Option<Vec<f64>> =
         text.split(',').map(|part| part.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
     match numbers.as_deref() {
@@ -118,6 +118,20 @@ pub(crate) fn write_png(image: &Image, output: Output) -> Result<(), Box<Failure
             other => WriteProblem::Failure(Failure::new(Code::OwnBug, other.to_string())),
         })
     })
+}
+
+/// Colours that differ well, also for most colour-blind people \[Okabe08\]; they repeat.
+pub(crate) fn distinct(k: usize) -> [u8; 3] {
+    const COLORS: [[u8; 3]; 7] = [
+        [230, 159, 0],
+        [86, 180, 233],
+        [0, 158, 115],
+        [240, 228, 66],
+        [0, 114, 178],
+        [213, 94, 0],
+        [204, 121, 167],
+    ];
+    COLORS[k % COLORS.len()]
 }
 
 #[cfg(test)]

@@ -2,7 +2,9 @@
 
 use crate::args::{Cli, Command};
 use crate::codes::Code;
-use crate::commands::{ccd, check, completions, convert, demo, doctor, info, isosurface, render, shape};
+use crate::commands::{
+    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, shape,
+};
 use crate::console::{Console, print_error, write_json_once};
 use crate::failure::Failure;
 use crate::progress::Progress;
@@ -69,6 +71,7 @@ fn run(cli: Cli) -> Outcome {
         Command::Render(args) => render::run(&args, &run),
         Command::Shape(args) => shape::run(&args, &run),
         Command::Isosurface(args) => isosurface::run(&args, &run),
+        Command::Mesh(args) => mesh::run(&args, &run),
         Command::Convert(args) => convert::run(&args, &run),
         Command::Info(args) => info::run(&args, &run),
         Command::Doctor(args) => doctor::run(&args, &run),

@@ -8,5 +8,6 @@ pub(crate) mod demo;
 pub(crate) mod doctor;
 pub(crate) mod info;
 pub(crate) mod isosurface;
+pub(crate) mod mesh;
 pub(crate) mod render;
 pub(crate) mod shape;

@@ -121,31 +121,17 @@ fn colors_of(mesh: &TriMesh, coloring: Coloring) -> Vec<[u8; 3]> {
         Coloring::Group => {
             let mut colors = vec![GREY; mesh.triangles().len()];
             for (k, group) in mesh.groups().iter().enumerate() {
-                colors[group.triangles.start as usize..group.triangles.end as usize].fill(distinct(k));
+                colors[group.triangles.start as usize..group.triangles.end as usize].fill(picture::distinct(k));
             }
             colors
         }
         Coloring::Component => {
             let topology = Topology::of(mesh);
             let triangles = (0..mesh.triangles().len()).map(TriId::from_index);
-            triangles.map(|triangle| distinct(topology.component_of(triangle))).collect()
+            triangles.map(|triangle| picture::distinct(topology.component_of(triangle))).collect()
         }
     }
 }
 
 /// Triangles of no group.
 const GREY: [u8; 3] = [190, 190, 190];
-
-/// Colours that differ well, also for most colour-blind people \[Okabe08\]; they repeat.
-fn distinct(k: usize) -> [u8; 3] {
-    const COLORS: [[u8; 3]; 7] = [
-        [230, 159, 0],
-        [86, 180, 233],
-        [0, 158, 115],
-        [240, 228, 66],
-        [0, 114, 178],
-        [213, 94, 0],
-        [204, 121, 167],
-    ];
-    COLORS[k % COLORS.len()]
-}

@@ -72,12 +72,7 @@ impl View {
         let taken = Layout::of(&scene.caption, scene.size).map_or(0.0, |l| CLEARANCE * f64::from(l.height()));
         let middle = DVec2::new(0.5 * size.x, 0.5 * (size.y - taken));
         let focal = 0.5 * size.min_element() / libm::tan((0.5 * FIELD_OF_VIEW).to_radians());
-        let up_axis = match scene.up {
-            Up::Y => DVec3::Y,
-            Up::Z => DVec3::Z,
-            Up::Automatic if model.half_extent.z < FLAT * model.half_extent.y => DVec3::Z,
-            Up::Automatic => DVec3::Y,
-        };
+        let up_axis = scene.up.axis(model.half_extent);
         // Azimuth 0: the eye at `front`, `side` to its right.
         let (side, front) = (DVec3::X, DVec3::X.cross(up_axis));
         let (azimuth, elevation, distance) = match scene.camera {
@@ -106,9 +101,7 @@ impl View {
             }
         };
         let (sa, ca) = (libm::sin(azimuth), libm::cos(azimuth));
-        let (se, ce) = (libm::sin(elevation), libm::cos(elevation));
-        let away = side * sa + front * ca;
-        let toward = away * ce + up_axis * se;
+        let toward = toward_eye(up_axis, azimuth, elevation);
         let right = side * ca - front * sa;
         let above = toward.cross(right);
         let mut view = Self { eye: DVec3::ZERO, right, above, toward, up: DVec3::ZERO, focal, size, middle };
@@ -149,6 +142,25 @@ impl View {
         let distance = (0.5 * (reach[0] + reach[1])).max(0.5 * (reach[2] + reach[3])).max(0.1);
         shift + self.toward * distance
     }
+}
+
+impl Up {
+    /// The axis, for surfaces of this extent.
+    pub(crate) fn axis(self, extent: DVec3) -> DVec3 {
+        match self {
+            Self::Y => DVec3::Y,
+            Self::Z => DVec3::Z,
+            Self::Automatic if extent.z < FLAT * extent.y => DVec3::Z,
+            Self::Automatic => DVec3::Y,
+        }
+    }
+}
+
+/// From the middle to an eye at angles in radians, of unit length.
+pub(crate) fn toward_eye(up: DVec3, azimuth: f64, elevation: f64) -> DVec3 {
+    let (side, front) = (DVec3::X, DVec3::X.cross(up));
+    let away = side * libm::sin(azimuth) + front * libm::cos(azimuth);
+    away * libm::cos(elevation) + up * libm::sin(elevation)
 }
 
 /// The turn around the up axis that brings the longest horizontal principal axis across the picture.

@@ -30,6 +30,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use camera::toward_eye;
 pub(crate) use color::Rgb;
 #[allow(unused_imports)] // for the commands that compute fields
 pub(crate) use color_map::ColorMap;

@@ -158,11 +158,13 @@ pub(crate) struct Edges {
     pub(crate) width: f64,
     /// In [0, 1].
     pub(crate) opacity: f64,
+    /// Which sides of each triangle are drawn, by the opposite corner: two triangles can stand for a quadrilateral.
+    pub(crate) sides: [bool; 3],
 }
 
 impl Default for Edges {
     fn default() -> Self {
-        Self { color: Rgb::of_bytes([38, 45, 56]), width: 1.1, opacity: 0.6 }
+        Self { color: Rgb::of_bytes([38, 45, 56]), width: 1.1, opacity: 0.6, sides: [true; 3] }
     }
 }
 

@@ -222,7 +222,8 @@ impl<'a> Shader<'a> {
         if facet.line > 0.0
             && let Some(edges) = self.layers[facet.layer].style.edges
         {
-            let distance = (0..3).map(|i| e[i].abs() * facet.pixels[i]).fold(f64::INFINITY, f64::min);
+            let sides = (0..3).filter(|&i| edges.sides[i]);
+            let distance = sides.map(|i| e[i].abs() * facet.pixels[i]).fold(f64::INFINITY, f64::min);
             // Half of the line lies on either side of the edge.
             let cover = (0.5 * edges.width - distance + 0.25).clamp(0.0, 0.5) * 2.0;
             // In shadow a line stays darker than the surface.

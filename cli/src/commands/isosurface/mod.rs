@@ -3,8 +3,8 @@
 mod field;
 mod spec;
 
+use crate::closed::closed_oriented;
 use crate::codes::Code;
-use crate::commands::check::failures_of;
 use crate::console::Seconds;
 use crate::failure::{Failure, shell_word, shown};
 use crate::input::{Input, Reading};
@@ -27,7 +27,7 @@ use welter_meshing::io::{DataArray, VtkEncoding, WriteError, write_vti};
 use welter_meshing::isosurface::{IsosurfaceError, MarchingCubes, marching_cubes, marching_cubes_open};
 use welter_meshing::remesh::{Equilateral, RemeshError, equilateral};
 use welter_meshing::surface::measure::{angle_statistics, area, signed_volume};
-use welter_meshing::surface::{ClosedOrientedError, ClosedOrientedMesh, EmbeddedMesh, Topology, TriMesh};
+use welter_meshing::surface::{EmbeddedMesh, Topology, TriMesh};
 use welter_meshing::{DVec3, Monitor};
 
 /// Make the surface of a field that a scene file describes
@@ -236,17 +236,7 @@ fn read_meshes(args: &Args, run: &Run, files: Vec<PathBuf>) -> Result<Meshes, Bo
         let name = beside(&args.scene, &file);
         let input = Input::open(&name, &Reading { from: None, max_memory: args.max_memory })?;
         let (soup, _) = input.read(&run.console.progress)?;
-        let mesh = TriMesh::new(soup).map_err(|error| failures_of(&error, &name).swap_remove(0))?;
-        let mesh = ClosedOrientedMesh::new(mesh).map_err(|error| {
-            let code = match &error {
-                ClosedOrientedError::Defects(found) if found.boundary.is_empty() => Code::NotOriented,
-                _ => Code::NotClosed,
-            };
-            Failure::new(code, error.to_string())
-                .subject(name.display().to_string())
-                .why("inside and outside are known only for a closed, oriented surface")
-                .help(format!("welter check {}", shell_word(&name)))
-        })?;
+        let mesh = closed_oriented(soup, &name)?;
         meshes.insert(file, mesh);
     }
     Ok(meshes)

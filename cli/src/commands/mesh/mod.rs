@@ -1,0 +1,262 @@
+//! `welter mesh`: the volume of a surface, as hexahedra or tetrahedra; where the surface overlaps itself, sheets of the mesh lie over
+//! one another and stay apart.
+
+mod cell_size;
+mod clock;
+mod findings;
+mod groups;
+mod hosts;
+mod options;
+mod outputs;
+mod product;
+mod refused;
+mod report;
+mod volume_file;
+
+use crate::closed::closed_oriented;
+use crate::codes::Code;
+use crate::console::Seconds;
+use crate::cutaway::{self, Cutaway};
+use crate::failure::{Failure, shell_word};
+use crate::input::Input;
+use crate::numbers::{self, grouped};
+use crate::output::WriteProblem;
+use crate::run::{Outcome, Run};
+use crate::surface_file::refuse_standard_output_with_json;
+use crate::{machine, picture};
+use cell_size::{Chosen, Measures};
+use clock::Clock;
+use findings::Topology;
+use groups::Groups;
+use outputs::Outputs;
+use product::{Boundary, Product};
+use report::Report;
+use welter_meshing::surface::ClosedOrientedMesh;
+use welter_meshing::volumetric::{
+    TetrahedraError, Verification, VolumeMesh, VolumeParameters, mesh_volume, outward, tetrahedra, verify,
+};
+use welter_meshing::{Cancelled, Monitor};
+
+pub(crate) use options::Args;
+
+/// What a run is about: known before the work.
+struct Job<'a> {
+    args: &'a Args,
+    measures: Measures,
+    chosen: Chosen,
+    clock: &'a Clock,
+}
+
+pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
+    let console = &run.console;
+    let clock = &Clock::start(args.time_limit);
+    let mut seconds = Seconds::default();
+    for output in [Some(&args.output), args.hosts.as_ref(), args.picture.as_ref()].into_iter().flatten() {
+        refuse_standard_output_with_json(output, run)?;
+    }
+    let input = Input::open(&args.input, &args.reading)?;
+    let outputs = Outputs::prepare(args, run)?;
+    let (soup, held) = console.stage(&mut seconds, "reading", || input.read(&console.progress))?;
+    for ignored in &held.ignored {
+        console.detail(2, &format!("{} ({}) passed over", ignored.what, grouped(ignored.count)));
+    }
+    let surface = console.stage(&mut seconds, "checking", || closed_oriented(soup, &args.input))?;
+    let report = |p: welter_meshing::Progress| console.progress.report(p.stage, p.done, p.total);
+    let monitor = Monitor::new(Some(&report), Some(clock.flag()));
+    let surface = if args.outward { turned_outward(&surface, run, &mut seconds, &monitor, clock)? } else { surface };
+    let measures = Measures::of(&surface);
+    let chosen = cell_size::choose(&measures, args.resolution, args.spacing);
+    let job = Job { args, measures, chosen, clock };
+    if let Some(note) = &job.chosen.note {
+        console.note(note);
+    }
+    let parameters = job.parameters(&surface)?;
+
+    let volume = console
+        .stage(&mut seconds, "meshing", || mesh_volume(&surface, &parameters, &monitor))
+        .map_err(|error| refused::refused(&job, &error))?;
+    let product = job.product(volume, run, &mut seconds, &monitor)?;
+    job.deliver(&surface, product, outputs, run, seconds, &monitor)
+}
+
+/// The surface without components that were turned inside out by mistake.
+fn turned_outward(
+    surface: &ClosedOrientedMesh,
+    run: &Run,
+    seconds: &mut Seconds,
+    monitor: &Monitor<'_>,
+    clock: &Clock,
+) -> Result<ClosedOrientedMesh, Box<Failure>> {
+    let turned = run.console.stage(seconds, "turning outward", || outward(surface, monitor));
+    let (surface, components) = turned.map_err(|Cancelled| clock.time_is_up("turning components outward"))?;
+    run.console.note(&format!("{} components turned outward", grouped(components.len() as u64)));
+    Ok(surface)
+}
+
+impl Job<'_> {
+    /// What the mesher is told, after a look at the memory that it takes.
+    fn parameters(&self, surface: &ClosedOrientedMesh) -> Result<VolumeParameters, Box<Failure>> {
+        let (args, spacing) = (self.args, self.chosen.spacing);
+        let parameters = VolumeParameters {
+            resolution: self.chosen.resolution,
+            max_refinements: args.max_refinements,
+            max_cells: args.max_cells.unwrap_or(VolumeParameters::default().max_cells),
+            coarsenings: args.coarsen,
+            ..VolumeParameters::default()
+        };
+        // What is out of range has no cells to be counted.
+        parameters.validate().map_err(|error| refused::refused(self, &error))?;
+        let Some(free) = args.reading.max_memory.or_else(machine::available_memory) else {
+            return Ok(parameters);
+        };
+        let fits = |halvings: u32| {
+            self.measures.bytes(spacing * 0.5f64.powi(halvings as i32), args.tet) <= free as f64
+        };
+        if !surface.triangles().is_empty() && !fits(0) {
+            return Err(self.over_memory(free));
+        }
+        let affordable = (0..parameters.max_refinements).take_while(|&halvings| fits(halvings + 1)).count();
+        Ok(VolumeParameters { max_refinements: affordable as u32, ..parameters })
+    }
+
+    fn over_memory(&self, free: u64) -> Box<Failure> {
+        let (args, spacing) = (self.args, self.chosen.spacing);
+        let needed = self.measures.bytes(spacing, args.tet);
+        let what = format!(
+            "cells of side {} are about {} hexahedra, which may take {}, and {} {}",
+            numbers::number(spacing),
+            numbers::number(self.measures.hexahedra(spacing)),
+            if needed < 1e18 { numbers::bytes(needed as u64) } else { "more than any machine has".to_owned() },
+            numbers::bytes(free),
+            if args.reading.max_memory.is_some() { "are allowed" } else { "are free" }
+        );
+        let largest = self.measures.smallest_cells(free as f64, |spacing| self.measures.bytes(spacing, args.tet));
+        let help = match largest {
+            Some(spacing) => {
+                let count = (self.measures.shortest_side() / spacing).floor();
+                let cells = if count >= 1.0 { format!(", or: -r {count}") } else { String::new() };
+                format!("-s {spacing}   # would fit{cells}")
+            }
+            None => "no cells would fit: allow more memory, or take a simpler surface".to_owned(),
+        };
+        Failure::new(Code::OverMemory, what).subject(args.input.display().to_string()).help(help)
+    }
+
+    /// The mesh in the form that was asked for.
+    fn product(
+        &self,
+        volume: VolumeMesh,
+        run: &Run,
+        seconds: &mut Seconds,
+        monitor: &Monitor<'_>,
+    ) -> Result<Product, Box<Failure>> {
+        let tetrahedra = match self.args.tet {
+            false => None,
+            true => Some(run.console.stage(seconds, "tetrahedra", || tetrahedra(&volume.mesh, monitor)).map_err(
+                |error| match error {
+                    TetrahedraError::Cancelled(_) => self.clock.time_is_up("making tetrahedra"),
+                    TetrahedraError::TooMany { .. } => Failure::new(Code::OverCount, error.to_string())
+                        .subject(self.args.input.display().to_string())
+                        .help("larger cells: -s LENGTH, or fewer: -r N"),
+                    _ => Failure::new(Code::NoSuchCells, error.to_string())
+                        .subject(self.args.input.display().to_string())
+                        .help("-r 63   # a size of cells with fewer digits"),
+                },
+            )?),
+        };
+        Ok(Product { volume, tetrahedra, components: Vec::new() })
+    }
+
+    /// Finds out what is to be told, and writes everything. Once there is a mesh it is written, whatever comes.
+    fn deliver(
+        &self,
+        surface: &ClosedOrientedMesh,
+        mut product: Product,
+        outputs: Outputs,
+        run: &Run,
+        mut seconds: Seconds,
+        monitor: &Monitor<'_>,
+    ) -> Outcome {
+        let (args, console) = (self.args, &run.console);
+        let free = args.reading.max_memory.or_else(machine::available_memory);
+        let mut stopped = None;
+        let found = console.stage(&mut seconds, "topology", || Topology::of(&product.volume, free, monitor));
+        let topology = found.map_err(|Cancelled| stopped = Some("counting components")).ok();
+        product.components = match &topology {
+            Some(topology) => topology.components.labels().of().to_vec(),
+            None => vec![0; product.volume.mesh.len()],
+        };
+        let verification = match (args.no_verify, stopped) {
+            (false, None) => {
+                let found =
+                    console.stage(&mut seconds, "verifying", || verify(surface, &product.volume, monitor));
+                found.map_err(|Cancelled| stopped = Some("verifying")).ok()
+            }
+            _ => None,
+        };
+        let mut picture_cut = None;
+        let mut image = None;
+        if let Some(name) = &args.picture
+            && stopped.is_none()
+        {
+            let mesh = &product.volume.mesh;
+            let view = Cutaway {
+                mesh,
+                components: &product.components,
+                cut: args.cut.unwrap_or_else(|| cutaway::through_overlap(mesh)),
+                camera: args.camera,
+                size: args.picture_size,
+                title: &args.input.file_stem().unwrap_or(name.as_os_str()).to_string_lossy(),
+            };
+            picture_cut = Some(view.cut);
+            match cutaway::draw(&view, run, &mut seconds, monitor) {
+                Ok(drawn) => image = Some(drawn),
+                Err(cutaway::Problem::Cancelled) => stopped = Some("drawing the picture"),
+                Err(problem) => return Err(problem.into_failure()),
+            }
+        }
+        let groups = Groups::of(surface);
+        let dropped = console.stage(&mut seconds, "writing", || -> Result<Vec<String>, Box<Failure>> {
+            let boundary = if outputs.writing.with_boundary {
+                // Nobody asks to stop here: the mesh is to be written.
+                Boundary::of(&product, surface, &groups, &Monitor::none()).unwrap_or_default()
+            } else {
+                Boundary::default()
+            };
+            let dropped = outputs.writing.write(outputs.volume, &product, &boundary)?;
+            if let Some(hosts) = outputs.hosts {
+                hosts.write(|file| hosts::write_hosts(file, &product).map_err(WriteProblem::Io))?;
+            }
+            if let (Some(output), Some(image)) = (outputs.picture, &image) {
+                picture::write_png(image, output)?;
+            }
+            Ok(dropped)
+        })?;
+        console.progress.clear();
+        for loss in &dropped {
+            console.note(&format!("{}: {loss}", args.output.display()));
+        }
+        let report = Report {
+            job: self,
+            product: &product,
+            topology: topology.as_ref(),
+            verification: verification.as_ref(),
+            groups: &groups,
+            cut: picture_cut,
+            dropped: &dropped,
+        };
+        let failure = match &verification {
+            Some(verification) if !verification.passed() => Some(self.not_verified(verification)),
+            _ => stopped.map(|stage| self.clock.time_is_up(stage)),
+        };
+        report.tell(run, &seconds, failure)
+    }
+
+    fn not_verified(&self, verification: &Verification) -> Box<Failure> {
+        let input = shell_word(&self.args.input);
+        let failure = Failure::new(Code::MeshNotVerified, "the mesh that was written is not right")
+            .subject(self.args.output.display().to_string())
+            .help(format!("send {input} and the command line to the authors; smaller cells may go well: -s LENGTH"));
+        verification.findings().fold(failure, |failure, finding| failure.place(finding.to_string()))
+    }
+}

@@ -1,0 +1,112 @@
+//! What a person is told when there is no volumetric mesh: [`VolumeError`] as failures.
+
+use super::cell_size::Measures;
+use super::{Args, Job};
+use crate::codes::Code;
+use crate::failure::{Failure, shell_word};
+use crate::numbers::{self, grouped, point};
+use welter_meshing::DVec3;
+use welter_meshing::volumetric::{Place, VolumeError};
+
+/// The failure for an error of the mesher.
+pub(super) fn refused(job: &Job<'_>, error: &VolumeError) -> Box<Failure> {
+    let args = job.args;
+    let failure = |code| Failure::new(code, error.to_string()).subject(args.input.display().to_string());
+    match error {
+        VolumeError::Grid(_) | VolumeError::Parameter { .. } => failure(Code::NoSuchCells)
+            .place(format!("bounding box of {}", size(job.measures.sides)))
+            .help("-r 63   # cells along the shortest side; or: -s LENGTH"),
+        VolumeError::Empty => failure(Code::NoTriangles)
+            .why("a surface without triangles bounds no volume")
+            .help(format!("welter info {}", shell_word(&args.input))),
+        VolumeError::Negative { place, winding } => {
+            let what = format!(
+                "the surface is inside out around {}: it winds {winding} times there",
+                point(middle(place))
+            );
+            let failure = Failure::new(Code::InsideOut, what).subject(args.input.display().to_string());
+            failure.place(in_words(place)).help(look(args, place, &job.measures))
+        }
+        VolumeError::TooManyCopies { place, copies, most } => {
+            let what = format!(
+                "{copies} sheets lie over one another around {}, at most {most} can be told apart",
+                point(middle(place))
+            );
+            let failure = Failure::new(Code::TooManySheets, what).subject(args.input.display().to_string());
+            failure.place(in_words(place)).help(look(args, place, &job.measures))
+        }
+        VolumeError::UnderResolved { place, what, spacing, refinements } => {
+            let finer = 0.5 * spacing;
+            let what = format!(
+                "cells of side {} are too large around {}: {what}",
+                numbers::number(*spacing),
+                point(middle(place))
+            );
+            let failure = Failure::new(Code::UnderResolved, what).subject(args.input.display().to_string());
+            let failure = match refinements {
+                0 => failure,
+                n => failure.place(format!("halved {n} times from side {}", numbers::number(job.chosen.spacing))),
+            };
+            let needed = job.measures.bytes(finer, args.tet);
+            let memory = if needed.is_finite() { numbers::bytes(needed as u64) } else { "too much".to_owned() };
+            failure.place(in_words(place)).help(format!(
+                "welter mesh {} -o {} -s {finer}   # may take {memory} of memory",
+                shell_word(&args.input),
+                shell_word(&args.output)
+            ))
+        }
+        VolumeError::TooLarge { what: "cells of the grid", count, most } => {
+            let failure = Failure::new(
+                Code::OverCells,
+                format!(
+                    "cells of side {} are {} in the box of the surface, and {} are allowed",
+                    numbers::number(job.chosen.spacing),
+                    grouped(*count),
+                    grouped(*most)
+                ),
+            );
+            let cells = |h: f64| job.measures.sides.to_array().map(|side| side / h + 3.0).iter().product();
+            let help = match job.measures.smallest_cells(*most as f64, cells) {
+                Some(spacing) => format!("-s {spacing}   # or: --max-cells {count}"),
+                None => format!("--max-cells {count}"),
+            };
+            failure.subject(args.input.display().to_string()).help(help)
+        }
+        VolumeError::TooLarge { .. } => failure(Code::OverCount).help("larger cells: -s LENGTH, or fewer: -r N"),
+        VolumeError::Cancelled(_) => job.clock.time_is_up("meshing"),
+        _ => failure(Code::OwnBug).help("send the file to the authors"),
+    }
+}
+
+fn middle(place: &Place) -> DVec3 {
+    place.min * 0.5 + place.max * 0.5
+}
+
+/// A box, and how many nodes of the grid it stands for.
+fn in_words(place: &Place) -> String {
+    let nodes = match place.nodes {
+        0 => String::new(),
+        1 => ", 1 node of the grid".to_owned(),
+        n => format!(", {} nodes of the grid", grouped(n)),
+    };
+    format!("{} to {}{nodes}", point(place.min), point(place.max))
+}
+
+/// The command that shows what is there: from the side that makes the widest picture of the place.
+fn look(args: &Args, place: &Place, measures: &Measures) -> String {
+    let input = shell_word(&args.input);
+    if measures.volume < 0.0 {
+        return format!("--outward   # turns it; to look: welter render {input} -o look.png, where blue is the inside");
+    }
+    let extent = place.max - place.min;
+    let axis = (0..3).min_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(2);
+    let cut = numbers::number(middle(place)[axis]);
+    format!(
+        "welter render {input} -o look.png --cut {}={cut} --self-intersections   # blue is the inside; if whole components are: --outward",
+        ["x", "y", "z"][axis]
+    )
+}
+
+fn size(sides: DVec3) -> String {
+    format!("{} x {} x {}", numbers::number(sides.x), numbers::number(sides.y), numbers::number(sides.z))
+}
