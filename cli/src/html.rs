@@ -8,8 +8,8 @@ pub(crate) struct Page<'a> {
     pub(crate) title: &'a str,
     /// The result in one sentence.
     pub(crate) verdict: &'a str,
-    /// A PNG and its caption.
-    pub(crate) picture: Option<(&'a [u8], &'a str)>,
+    /// PNG files, each with its caption.
+    pub(crate) pictures: &'a [(&'a [u8], &'a str)],
     /// Headings and rows of name and value.
     pub(crate) tables: &'a [(&'a str, Vec<(String, String)>)],
     /// Commands to try next.
@@ -38,7 +38,7 @@ impl Page<'_> {
              <p class=\"verdict\">{}</p>\n",
             escaped(self.verdict)
         );
-        if let Some((png, caption)) = self.picture {
+        for (png, caption) in self.pictures {
             let _ = writeln!(
                 html,
                 "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>",
@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn names_of_files_cannot_break_the_page() {
-        let page = Page { title: "<script>", verdict: "a & b", picture: None, tables: &[], commands: &[] };
+        let page = Page { title: "<script>", verdict: "a & b", pictures: &[], tables: &[], commands: &[] };
         let html = page.to_html();
         assert!(!html.contains("<script>") && html.contains("a &amp; b"));
     }

@@ -1,6 +1,7 @@
-//! `welter demo`: builds a surface that intersects itself, checks it exactly, draws it, and says where the results are.
+//! `welter demo`: builds a surface that intersects itself, checks it exactly, meshes its volume, draws both, and says where the results are.
 
 use crate::codes::Code;
+use crate::commands::mesh::Meshed;
 use crate::commands::shape;
 use crate::console::Seconds;
 use crate::examine::{self, Findings};
@@ -9,7 +10,7 @@ use crate::html::Page;
 use crate::numbers::grouped;
 use crate::output::Output;
 use crate::picture;
-use crate::render::{Caption, Edges, Layer, Rgb, Scene, Style};
+use crate::render::{Caption, Edges, Layer, RenderError, Rgb, Scene, Style};
 use crate::run::{Outcome, Run};
 use crate::surface_file::write_surface;
 use serde_json::{Value, json};
@@ -19,11 +20,12 @@ use welter_meshing::io::{Format, WriteOptions};
 use welter_meshing::spatial::Sharing;
 use welter_meshing::surface::{TriId, TriMesh, TriangleSoup};
 
-/// Build a self-intersecting surface, check it exactly and draw it; no input needed
+/// Build a self-intersecting surface, check it exactly, mesh its volume and draw both; no input needed
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Writes NAME.png, NAME.ply, report.json and report.html into DIR. What an earlier demo wrote there is replaced;
-anything else is not overwritten without --force.")]
+Writes the surface (NAME.png, NAME.ply), its volume as hexahedra (NAME-mesh.png, cut open; NAME.vtu), report.json
+and report.html into DIR. What an earlier demo wrote there is replaced; anything else is not overwritten without
+--force.")]
 pub(crate) struct Args {
     /// A surface of `welter shape --list`
     #[arg(default_value = "ring-overlap")]
@@ -39,30 +41,39 @@ pub(crate) struct Args {
 /// What `report.json` says of its maker; a folder that has it may be written again.
 const MAKER: &str = "welter demo";
 
+/// Cells along the shortest side of the mesh: each is seen on the picture.
+const CELLS: u32 = 24;
+
 pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     let console = &run.console;
     let mut seconds = Seconds::default();
-    let mesh = console.stage(&mut seconds, "building", || shape::build(&args.name, None))?;
-    let mesh: &TriMesh = mesh.as_mesh();
+    let closed = console.stage(&mut seconds, "building", || shape::build(&args.name, None))?;
+    let mesh: &TriMesh = closed.as_mesh();
     let folder = Folder::prepare(&args.output, run)?;
-    let [picture, surface, json_file, html_file] = [
+    let [picture, surface, cut_picture, volume, json_file, html_file] = [
         format!("{}.png", args.name),
         format!("{}.ply", args.name),
+        format!("{}-mesh.png", args.name),
+        format!("{}.vtu", args.name),
         "report.json".into(),
         "report.html".into(),
     ]
     .map(|name: String| args.output.join(name));
-    let outputs = [&picture, &surface, &json_file, &html_file]
-        .map(|path| Output::prepare(path, run.force || folder.replaceable, &[]));
-    let [picture_out, surface_out, json_out, html_out] = outputs;
-    let (picture_out, surface_out, json_out, html_out) = (picture_out?, surface_out?, json_out?, html_out?);
+    let open = |path: &Path| Output::prepare(path, run.force || folder.replaceable, &[]);
+    let (picture_out, surface_out) = (open(&picture)?, open(&surface)?);
+    let (cut_picture_out, volume_out) = (open(&cut_picture)?, open(&volume)?);
+    let (json_out, html_out) = (open(&json_file)?, open(&html_file)?);
 
     let findings = Findings::of(mesh, Sharing::Position, console, seconds)?;
     let mut seconds = findings.seconds.clone();
     let crossing: Vec<TriId> = findings.pairs.iter().flatten().copied().collect();
     let scene = scene(mesh, &args.name, args.size, &crossing, &findings);
     let image = picture::draw(&scene, run, &mut seconds)?;
-    let png = image.to_png().map_err(|error| Failure::new(Code::OwnBug, error.to_string()))?;
+    let own_bug = |error: RenderError| Failure::new(Code::OwnBug, error.to_string());
+    let png = image.to_png().map_err(own_bug)?;
+    let meshed = Meshed::of(&closed, CELLS, &args.name, run, &mut seconds)?;
+    let title = format!("{}, meshed and cut open", args.name);
+    let cut_png = meshed.draw(&title, args.size, run, &mut seconds)?.to_png().map_err(own_bug)?;
 
     let command = format!("welter demo {} -o {}", args.name, shell_word(&args.output));
     let object = json!({
@@ -73,24 +84,33 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
         "folder": shown(&args.output),
         "picture": shown(&picture),
         "surface": shown(&surface),
+        "mesh_picture": shown(&cut_picture),
+        "volume": shown(&volume),
         "report": shown(&html_file),
         "findings": Value::Object(findings.to_json(false)),
+        "mesh": Value::Object(meshed.facts().to_json()),
         "seconds": seconds.to_json(),
     });
-    let page = page(args, &findings, &png, &surface);
+    let page = page(args, &findings, &meshed, [&png, &cut_png], [&surface, &volume], &seconds);
     console.stage(&mut seconds, "writing", || -> Result<(), Box<Failure>> {
         picture_out.write(|file| file.write_all(&png))?;
         let _ = write_surface(surface_out, Format::Ply, &colored(mesh, &crossing), &WriteOptions::default())?;
+        cut_picture_out.write(|file| file.write_all(&cut_png))?;
+        meshed.write(volume_out)?;
         html_out.write(|file| file.write_all(page.as_bytes()))?;
         json_out.write(|file| writeln!(file, "{object:#}"))
     })?;
     folder.keep();
     console.progress.clear();
     let mut text = examine::block(Path::new(&args.name), &findings);
+    text.push_str("\nthe volume within:\n");
+    text.push_str(&meshed.facts().in_words());
     text.push_str("\nwritten:\n");
     for (path, what) in [
         (&picture, "the picture; triangles that intersect others are orange"),
         (&surface, "the surface, coloured the same way"),
+        (&cut_picture, "the mesh of the volume, cut open: two sheets where it overlaps itself"),
+        (&volume, "that mesh, for ParaView"),
         (&html_file, "the report, to open in a browser"),
         (&json_file, "the report for scripts"),
     ] {
@@ -181,8 +201,15 @@ fn colored(mesh: &TriMesh, crossing: &[TriId]) -> TriangleSoup {
     soup
 }
 
-fn page(args: &Args, findings: &Findings, png: &[u8], surface: &Path) -> String {
-    let seconds = findings.seconds.to_json();
+fn page(
+    args: &Args,
+    findings: &Findings,
+    meshed: &Meshed,
+    [png, cut_png]: [&[u8]; 2],
+    [surface, volume]: [&Path; 2],
+    seconds: &Seconds,
+) -> String {
+    let seconds = seconds.to_json();
     let rows = |value: &Value| -> Vec<(String, String)> {
         let Value::Object(map) = value else { return Vec::new() };
         map.iter().map(|(name, value)| (name.replace('_', " "), seconds_of(value))).collect()
@@ -192,19 +219,27 @@ fn page(args: &Args, findings: &Findings, png: &[u8], surface: &Path) -> String 
             "Findings",
             examine::facts(findings).into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
         ),
+        (
+            "The volume within",
+            meshed.facts().rows().into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+        ),
         ("Seconds", rows(&seconds)),
     ];
-    let word = shell_word(surface);
+    let (word, mesh) = (shell_word(surface), shell_word(volume));
     let caption =
         format!("{}: triangles that intersect others are orange and show through what hides them", args.name);
     Page {
         title: &format!("welter demo: {}", args.name),
         verdict: &findings.verdict(),
-        picture: Some((png, &caption)),
+        pictures: &[
+            (png, &caption),
+            (cut_png, "its volume as hexahedra, cut open; two colours on one face: two hexahedra on one cell, of different sheets"),
+        ],
         tables: &tables,
         commands: &[
             format!("welter check {word} --pairs"),
             format!("welter render {word} -o closer.png --camera 20,60 --self-intersections"),
+            format!("welter mesh {word} -o {mesh} -r 63 --force"),
             "welter shape --list".to_owned(),
             "welter check your-own-part.stl".to_owned(),
         ],

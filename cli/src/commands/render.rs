@@ -121,7 +121,8 @@ fn colors_of(mesh: &TriMesh, coloring: Coloring) -> Vec<[u8; 3]> {
         Coloring::Group => {
             let mut colors = vec![GREY; mesh.triangles().len()];
             for (k, group) in mesh.groups().iter().enumerate() {
-                colors[group.triangles.start as usize..group.triangles.end as usize].fill(picture::distinct(k));
+                colors[group.triangles.start as usize..group.triangles.end as usize]
+                    .fill(picture::distinct(k));
             }
             colors
         }

@@ -29,7 +29,12 @@ pub(super) struct Faces(Vec<Face>);
 
 impl Faces {
     /// What is left if the hexahedra are taken away whose centre lies above the plane, or below it.
-    pub(super) fn of(mesh: &HexMesh, cut: Cut, above: bool, monitor: &Monitor<'_>) -> Result<Self, Cancelled> {
+    pub(super) fn of(
+        mesh: &HexMesh,
+        cut: Cut,
+        above: bool,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Cancelled> {
         let grid = mesh.grid();
         let is_kept = |cell: u64| {
             let layer = grid.cell_at(cell as usize)[cut.axis];

@@ -125,7 +125,14 @@ fn direction(camera: Camera, axis: usize, up: DVec3) -> DVec3 {
 fn caption(view: &Cutaway<'_>, seen: &Seen) -> Caption {
     let axis = ["x", "y", "z"][view.cut.axis];
     let mut lines = vec![
-        (None, format!("{} hexahedra of side {}", grouped(view.mesh.len() as u64), number(view.mesh.grid().spacing()))),
+        (
+            None,
+            format!(
+                "{} hexahedra of side {}",
+                grouped(view.mesh.len() as u64),
+                number(view.mesh.grid().spacing())
+            ),
+        ),
         (None, format!("cut open at {axis} = {}", number(view.cut.value))),
     ];
     if seen.shared > 0 {
@@ -135,7 +142,9 @@ fn caption(view: &Cutaway<'_>, seen: &Seen) -> Caption {
             format!("{} faces of {what}: as many hexahedra on one cell", grouped(seen.shared as u64)),
         ));
     }
-    let scale = seen.ends.map(|end| (ColorMap::Sequential, ["way through the mesh: 0".to_owned(), format!("{end} cells")]));
+    let scale = seen
+        .ends
+        .map(|end| (ColorMap::Sequential, ["way through the mesh: 0".to_owned(), format!("{end} cells")]));
     Caption { title: view.title.to_owned(), lines, scale }
 }
 

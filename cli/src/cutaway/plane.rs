@@ -19,7 +19,8 @@ pub(crate) fn through_overlap(mesh: &HexMesh) -> Cut {
         (axis, cells[axis] / 2)
     } else {
         let axis = (0..3).find(|&axis| surplus[axis].contains(&most)).unwrap_or(2);
-        let equal: Vec<u32> = (0..).zip(&surplus[axis]).filter(|&(_, &n)| n == most).map(|(layer, _)| layer).collect();
+        let equal: Vec<u32> =
+            (0..).zip(&surplus[axis]).filter(|&(_, &n)| n == most).map(|(layer, _)| layer).collect();
         (axis, equal[equal.len() / 2])
     };
     // Between two layers: all of the layer is seen.

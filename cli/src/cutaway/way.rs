@@ -52,12 +52,7 @@ impl Around {
     }
 }
 
-fn search(
-    mesh: &HexMesh,
-    around: &Around,
-    from: u32,
-    monitor: &Monitor<'_>,
-) -> Result<Vec<u32>, Cancelled> {
+fn search(mesh: &HexMesh, around: &Around, from: u32, monitor: &Monitor<'_>) -> Result<Vec<u32>, Cancelled> {
     let mut way = vec![FAR; mesh.len()];
     let mut seen = vec![false; mesh.nodes().len()];
     let mut front: Vec<u32> = if mesh.is_empty() { Vec::new() } else { vec![from] };

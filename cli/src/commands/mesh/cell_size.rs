@@ -121,9 +121,7 @@ pub(super) struct Chosen {
 pub(super) fn choose(measures: &Measures, cells: Option<u32>, spacing: Option<f64>) -> Chosen {
     let along = |cells: u32| measures.shortest_side() / f64::from(cells);
     match (cells, spacing) {
-        (_, Some(spacing)) => {
-            Chosen { resolution: Resolution::Spacing(spacing), spacing, note: None }
-        }
+        (_, Some(spacing)) => Chosen { resolution: Resolution::Spacing(spacing), spacing, note: None },
         (Some(cells), None) => {
             Chosen { resolution: Resolution::ShortestSide(cells), spacing: along(cells), note: None }
         }

@@ -37,8 +37,11 @@ impl Clock {
     /// The failure for a run that was stopped in a stage.
     pub(super) fn time_is_up(&self, stage: &str) -> Box<Failure> {
         let limit = self.limit.unwrap_or_default().as_secs_f64();
-        Failure::new(Code::TimeLimit, format!("the time limit of {} s was reached: {stage}", numbers::number(limit)))
-            .help(format!("--time-limit {}   # or larger cells: -s LENGTH, -r N", numbers::number(4.0 * limit)))
+        Failure::new(
+            Code::TimeLimit,
+            format!("the time limit of {} s was reached: {stage}", numbers::number(limit)),
+        )
+        .help(format!("--time-limit {}   # or larger cells: -s LENGTH, -r N", numbers::number(4.0 * limit)))
     }
 }
 

@@ -1,13 +1,15 @@
 //! What is found out about a volumetric mesh: [`Topology`].
 
-use welter_meshing::volumetric::{BettiError, BettiLimits, Components, VolumeMesh, betti_numbers, euler_characteristics};
+use welter_meshing::volumetric::{
+    BettiError, BettiLimits, Components, VolumeMesh, betti_numbers, euler_characteristics,
+};
 use welter_meshing::{Cancelled, Monitor};
 
 /// Memory for Betti numbers, in bytes for each cell of any dimension.
 const BYTES_A_CELL: u64 = 60;
 
 /// How a mesh hangs together.
-pub(super) struct Topology {
+pub(crate) struct Topology {
     pub(super) components: Components,
     /// Pieces, tunnels, cavities; none if they take more memory or time than there is.
     pub(super) betti: Option<[u64; 3]>,
@@ -27,7 +29,9 @@ impl Topology {
         }
         let betti = match betti_numbers(&volume.mesh, &limits, monitor) {
             // There is no fourth: a closed hypersurface of sheets would be a fault that the Euler characteristic shows.
-            Ok(numbers) => Some(numbers.total()).map(|[pieces, tunnels, cavities, _]| [pieces, tunnels, cavities]),
+            Ok(numbers) => {
+                Some(numbers.total()).map(|[pieces, tunnels, cavities, _]| [pieces, tunnels, cavities])
+            }
             Err(BettiError::Cancelled(cancelled)) => return Err(cancelled),
             Err(_) => None,
         };

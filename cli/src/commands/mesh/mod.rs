@@ -1,8 +1,10 @@
 //! `welter mesh`: the volume of a surface, as hexahedra or tetrahedra; where the surface overlaps itself, sheets of the mesh lie over
 //! one another and stay apart.
 
+mod by_default;
 mod cell_size;
 mod clock;
+mod facts;
 mod findings;
 mod groups;
 mod hosts;
@@ -26,6 +28,7 @@ use crate::surface_file::refuse_standard_output_with_json;
 use crate::{machine, picture};
 use cell_size::{Chosen, Measures};
 use clock::Clock;
+use facts::Facts;
 use findings::Topology;
 use groups::Groups;
 use outputs::Outputs;
@@ -37,6 +40,7 @@ use welter_meshing::volumetric::{
 };
 use welter_meshing::{Cancelled, Monitor};
 
+pub(crate) use by_default::Meshed;
 pub(crate) use options::Args;
 
 /// What a run is about: known before the work.
@@ -63,7 +67,8 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     let surface = console.stage(&mut seconds, "checking", || closed_oriented(soup, &args.input))?;
     let report = |p: welter_meshing::Progress| console.progress.report(p.stage, p.done, p.total);
     let monitor = Monitor::new(Some(&report), Some(clock.flag()));
-    let surface = if args.outward { turned_outward(&surface, run, &mut seconds, &monitor, clock)? } else { surface };
+    let surface =
+        if args.outward { turned_outward(&surface, run, &mut seconds, &monitor, clock)? } else { surface };
     let measures = Measures::of(&surface);
     let chosen = cell_size::choose(&measures, args.resolution, args.spacing);
     let job = Job { args, measures, chosen, clock };
@@ -126,11 +131,16 @@ impl Job<'_> {
             "cells of side {} are about {} hexahedra, which may take {}, and {} {}",
             numbers::number(spacing),
             numbers::number(self.measures.hexahedra(spacing)),
-            if needed < 1e18 { numbers::bytes(needed as u64) } else { "more than any machine has".to_owned() },
+            if needed < 1e18 {
+                numbers::bytes(needed as u64)
+            } else {
+                "more than any machine has".to_owned()
+            },
             numbers::bytes(free),
             if args.reading.max_memory.is_some() { "are allowed" } else { "are free" }
         );
-        let largest = self.measures.smallest_cells(free as f64, |spacing| self.measures.bytes(spacing, args.tet));
+        let largest =
+            self.measures.smallest_cells(free as f64, |spacing| self.measures.bytes(spacing, args.tet));
         let help = match largest {
             Some(spacing) => {
                 let count = (self.measures.shortest_side() / spacing).floor();
@@ -152,17 +162,19 @@ impl Job<'_> {
     ) -> Result<Product, Box<Failure>> {
         let tetrahedra = match self.args.tet {
             false => None,
-            true => Some(run.console.stage(seconds, "tetrahedra", || tetrahedra(&volume.mesh, monitor)).map_err(
-                |error| match error {
-                    TetrahedraError::Cancelled(_) => self.clock.time_is_up("making tetrahedra"),
-                    TetrahedraError::TooMany { .. } => Failure::new(Code::OverCount, error.to_string())
-                        .subject(self.args.input.display().to_string())
-                        .help("larger cells: -s LENGTH, or fewer: -r N"),
-                    _ => Failure::new(Code::NoSuchCells, error.to_string())
-                        .subject(self.args.input.display().to_string())
-                        .help("-r 63   # a size of cells with fewer digits"),
-                },
-            )?),
+            true => Some(
+                run.console.stage(seconds, "tetrahedra", || tetrahedra(&volume.mesh, monitor)).map_err(
+                    |error| match error {
+                        TetrahedraError::Cancelled(_) => self.clock.time_is_up("making tetrahedra"),
+                        TetrahedraError::TooMany { .. } => Failure::new(Code::OverCount, error.to_string())
+                            .subject(self.args.input.display().to_string())
+                            .help("larger cells: -s LENGTH, or fewer: -r N"),
+                        _ => Failure::new(Code::NoSuchCells, error.to_string())
+                            .subject(self.args.input.display().to_string())
+                            .help("-r 63   # a size of cells with fewer digits"),
+                    },
+                )?,
+            ),
         };
         Ok(Product { volume, tetrahedra, components: Vec::new() })
     }
@@ -238,9 +250,12 @@ impl Job<'_> {
         }
         let report = Report {
             job: self,
-            product: &product,
-            topology: topology.as_ref(),
-            verification: verification.as_ref(),
+            facts: Facts {
+                product: &product,
+                topology: topology.as_ref(),
+                verification: verification.as_ref(),
+                surface_volume: self.measures.volume,
+            },
             groups: &groups,
             cut: picture_cut,
             dropped: &dropped,
@@ -256,7 +271,9 @@ impl Job<'_> {
         let input = shell_word(&self.args.input);
         let failure = Failure::new(Code::MeshNotVerified, "the mesh that was written is not right")
             .subject(self.args.output.display().to_string())
-            .help(format!("send {input} and the command line to the authors; smaller cells may go well: -s LENGTH"));
+            .help(format!(
+                "send {input} and the command line to the authors; smaller cells may go well: -s LENGTH"
+            ));
         verification.findings().fold(failure, |failure, finding| failure.place(finding.to_string()))
     }
 }

@@ -7,7 +7,7 @@ use welter_meshing::volumetric::{Tetrahedra, VolumeMesh, boundary_sides};
 use welter_meshing::{Cancelled, DVec3, Monitor};
 
 /// A volumetric mesh on its way to a file.
-pub(super) struct Product {
+pub(crate) struct Product {
     pub(super) volume: VolumeMesh,
     /// In place of the hexahedra, if these were asked for.
     pub(super) tetrahedra: Option<Tetrahedra>,
@@ -60,7 +60,7 @@ pub(super) const TAGS: &str = "tag";
 
 /// The faces of a volumetric mesh that have cells on one side only.
 #[derive(Default)]
-pub(super) struct Boundary {
+pub(crate) struct Boundary {
     pub(super) quadrilaterals: Vec<[u32; 4]>,
     pub(super) triangles: Vec<[u32; 3]>,
     /// The hexahedron at each face.
@@ -88,7 +88,12 @@ impl Boundary {
                 Some(tetrahedra) => {
                     let centre = centre_of_side(tetrahedra, side.hexahedron, side.side);
                     let [a, b, c, d] = side.vertices;
-                    boundary.triangles.extend([[a, b, centre], [b, c, centre], [c, d, centre], [d, a, centre]]);
+                    boundary.triangles.extend([
+                        [a, b, centre],
+                        [b, c, centre],
+                        [c, d, centre],
+                        [d, a, centre],
+                    ]);
                 }
             }
             let faces = if product.tetrahedra.is_some() { 4 } else { 1 };

@@ -8,15 +8,20 @@ use crate::numbers::{self, grouped, point};
 use welter_meshing::DVec3;
 use welter_meshing::volumetric::{Place, VolumeError};
 
+/// What the mesher calls the cells of which there can be too many by a parameter.
+const CELLS_OF_GRID: &str = "cells of the grid";
+
 /// The failure for an error of the mesher.
 pub(super) fn refused(job: &Job<'_>, error: &VolumeError) -> Box<Failure> {
     let args = job.args;
-    let failure = |code| Failure::new(code, error.to_string()).subject(args.input.display().to_string());
+    let code = code_of(error);
+    let because = |what: String| Failure::new(code, what).subject(args.input.display().to_string());
+    let failure = || because(error.to_string());
     match error {
-        VolumeError::Grid(_) | VolumeError::Parameter { .. } => failure(Code::NoSuchCells)
+        VolumeError::Grid(_) | VolumeError::Parameter { .. } => failure()
             .place(format!("bounding box of {}", size(job.measures.sides)))
             .help("-r 63   # cells along the shortest side; or: -s LENGTH"),
-        VolumeError::Empty => failure(Code::NoTriangles)
+        VolumeError::Empty => failure()
             .why("a surface without triangles bounds no volume")
             .help(format!("welter info {}", shell_word(&args.input))),
         VolumeError::Negative { place, winding } => {
@@ -24,7 +29,7 @@ pub(super) fn refused(job: &Job<'_>, error: &VolumeError) -> Box<Failure> {
                 "the surface is inside out around {}: it winds {winding} times there",
                 point(middle(place))
             );
-            let failure = Failure::new(Code::InsideOut, what).subject(args.input.display().to_string());
+            let failure = because(what);
             failure.place(in_words(place)).help(look(args, place, &job.measures))
         }
         VolumeError::TooManyCopies { place, copies, most } => {
@@ -32,7 +37,7 @@ pub(super) fn refused(job: &Job<'_>, error: &VolumeError) -> Box<Failure> {
                 "{copies} sheets lie over one another around {}, at most {most} can be told apart",
                 point(middle(place))
             );
-            let failure = Failure::new(Code::TooManySheets, what).subject(args.input.display().to_string());
+            let failure = because(what);
             failure.place(in_words(place)).help(look(args, place, &job.measures))
         }
         VolumeError::UnderResolved { place, what, spacing, refinements } => {
@@ -42,39 +47,53 @@ pub(super) fn refused(job: &Job<'_>, error: &VolumeError) -> Box<Failure> {
                 numbers::number(*spacing),
                 point(middle(place))
             );
-            let failure = Failure::new(Code::UnderResolved, what).subject(args.input.display().to_string());
+            let failure = because(what);
             let failure = match refinements {
                 0 => failure,
-                n => failure.place(format!("halved {n} times from side {}", numbers::number(job.chosen.spacing))),
+                n => failure
+                    .place(format!("halved {n} times from side {}", numbers::number(job.chosen.spacing))),
             };
             let needed = job.measures.bytes(finer, args.tet);
-            let memory = if needed.is_finite() { numbers::bytes(needed as u64) } else { "too much".to_owned() };
+            let memory =
+                if needed.is_finite() { numbers::bytes(needed as u64) } else { "too much".to_owned() };
             failure.place(in_words(place)).help(format!(
                 "welter mesh {} -o {} -s {finer}   # may take {memory} of memory",
                 shell_word(&args.input),
                 shell_word(&args.output)
             ))
         }
-        VolumeError::TooLarge { what: "cells of the grid", count, most } => {
-            let failure = Failure::new(
-                Code::OverCells,
-                format!(
-                    "cells of side {} are {} in the box of the surface, and {} are allowed",
-                    numbers::number(job.chosen.spacing),
-                    grouped(*count),
-                    grouped(*most)
-                ),
+        VolumeError::TooLarge { what: CELLS_OF_GRID, count, most } => {
+            let what = format!(
+                "cells of side {} are {} in the box of the surface, and {} are allowed",
+                numbers::number(job.chosen.spacing),
+                grouped(*count),
+                grouped(*most)
             );
             let cells = |h: f64| job.measures.sides.to_array().map(|side| side / h + 3.0).iter().product();
             let help = match job.measures.smallest_cells(*most as f64, cells) {
                 Some(spacing) => format!("-s {spacing}   # or: --max-cells {count}"),
                 None => format!("--max-cells {count}"),
             };
-            failure.subject(args.input.display().to_string()).help(help)
+            because(what).help(help)
         }
-        VolumeError::TooLarge { .. } => failure(Code::OverCount).help("larger cells: -s LENGTH, or fewer: -r N"),
+        VolumeError::TooLarge { .. } => failure().help("larger cells: -s LENGTH, or fewer: -r N"),
         VolumeError::Cancelled(_) => job.clock.time_is_up("meshing"),
-        _ => failure(Code::OwnBug).help("send the file to the authors"),
+        _ => failure().help("send the file to the authors"),
+    }
+}
+
+/// The code alone.
+pub(super) fn code_of(error: &VolumeError) -> Code {
+    match error {
+        VolumeError::Grid(_) | VolumeError::Parameter { .. } => Code::NoSuchCells,
+        VolumeError::Empty => Code::NoTriangles,
+        VolumeError::Negative { .. } => Code::InsideOut,
+        VolumeError::TooManyCopies { .. } => Code::TooManySheets,
+        VolumeError::UnderResolved { .. } => Code::UnderResolved,
+        VolumeError::TooLarge { what: CELLS_OF_GRID, .. } => Code::OverCells,
+        VolumeError::TooLarge { .. } => Code::OverCount,
+        VolumeError::Cancelled(_) => Code::TimeLimit,
+        _ => Code::OwnBug,
     }
 }
 
@@ -96,7 +115,9 @@ fn in_words(place: &Place) -> String {
 fn look(args: &Args, place: &Place, measures: &Measures) -> String {
     let input = shell_word(&args.input);
     if measures.volume < 0.0 {
-        return format!("--outward   # turns it; to look: welter render {input} -o look.png, where blue is the inside");
+        return format!(
+            "--outward   # turns it; to look: welter render {input} -o look.png, where blue is the inside"
+        );
     }
     let extent = place.max - place.min;
     let axis = (0..3).min_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(2);

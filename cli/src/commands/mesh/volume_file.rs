@@ -27,7 +27,8 @@ impl VolumeFormat {
     /// The format that the extension of a name says.
     pub(super) fn of(name: &Path) -> Result<Self, Box<Failure>> {
         let extension = name.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        let known = |text: &str| Self::value_variants().iter().copied().find(|format| format.extension() == text);
+        let known =
+            |text: &str| Self::value_variants().iter().copied().find(|format| format.extension() == text);
         if let Some(format) = extension.as_deref().and_then(known) {
             return Ok(format);
         }
@@ -100,9 +101,11 @@ impl VolumeWriting {
                     let encoding = if self.ascii { Encoding::Ascii } else { Encoding::Binary };
                     write_msh(file, &view, &MshOptions { version: self.msh, encoding, tags })
                 }
-                VolumeFormat::Mesh => {
-                    write_medit(file, &view, &MeditOptions { cell_references: tags, ..MeditOptions::default() })
-                }
+                VolumeFormat::Mesh => write_medit(
+                    file,
+                    &view,
+                    &MeditOptions { cell_references: tags, ..MeditOptions::default() },
+                ),
             };
             written.map_err(|error| match error {
                 WriteError::Io(error) => WriteProblem::Io(error),
