@@ -3,7 +3,7 @@
 use crate::harness::Bench;
 
 /// Every source file of these tests: where codes are tried.
-const TESTS: [&str; 12] = [
+const TESTS: [&str; 13] = [
     include_str!("bad_input.rs"),
     include_str!("ccd.rs"),
     include_str!("check.rs"),
@@ -12,6 +12,7 @@ const TESTS: [&str; 12] = [
     include_str!("doctor.rs"),
     include_str!("interrupt.rs"),
     include_str!("isosurface.rs"),
+    include_str!("mesh.rs"),
     include_str!("outputs.rs"),
     include_str!("render.rs"),
     include_str!("shape.rs"),
@@ -19,10 +20,11 @@ const TESTS: [&str; 12] = [
 ];
 
 /// Codes that no command line can bring about on a healthy machine, and where they are tried instead.
-const ELSEWHERE: [&str; 3] = [
+const ELSEWHERE: [&str; 4] = [
     "W1002", // a wrong answer of a predicate: unit test of `doctor`
     "W4009", // a disk that does not deliver: unit test of `input`
     "W6002", // more than 2^32 elements: unit test of `input`
+    "W9003", // a wrong mesh: unit test of `mesh`
 ];
 
 #[test]

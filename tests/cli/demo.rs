@@ -8,7 +8,14 @@ fn the_demo_writes_a_picture_a_surface_and_its_reports() {
     let bench = Bench::new();
     let (object, ran) = bench.json("demo --size 320x240");
     assert_eq!(ran.exit, Some(0), "{}", ran.err);
-    for name in ["ring-overlap.png", "ring-overlap.ply", "report.html", "report.json"] {
+    for name in [
+        "ring-overlap.png",
+        "ring-overlap.ply",
+        "ring-overlap-mesh.png",
+        "ring-overlap.vtu",
+        "report.html",
+        "report.json",
+    ] {
         assert!(bench.exists(&format!("demo/{name}")), "{name}");
         assert!(ran.err.contains(&format!("demo/{name}")), "the person is told where: {}", ran.err);
     }
@@ -19,6 +26,16 @@ fn the_demo_writes_a_picture_a_surface_and_its_reports() {
     // The surface that was written gives the same answer.
     let (again, _) = bench.json("check demo/ring-overlap.ply");
     assert_eq!(again["files"][0]["self_intersecting_pairs"], pairs);
+
+    // The volume within: one ball, bent so that its ends lie over one another.
+    let mesh = &object["mesh"];
+    assert_eq!((&mesh["sheets"], &mesh["euler_characteristic"]), (&2.into(), &1.into()), "{mesh:#}");
+    assert_eq!(mesh["verification"]["embedding"], true, "{mesh:#}");
+    assert_eq!(report["mesh"], *mesh);
+    let volume = bench.read("demo/ring-overlap.vtu");
+    let (volume, _) =
+        welter_meshing::io::read_vtu(&volume[..], &welter_meshing::io::Limits::default()).unwrap();
+    assert_eq!(mesh["hexahedra"], volume.hexahedra.len());
 
     let png = bench.read("demo/ring-overlap.png");
     assert!(png.starts_with(b"\x89PNG\r\n\x1a\n"));

@@ -14,6 +14,7 @@ mod harness;
 mod info;
 mod interrupt;
 mod isosurface;
+mod mesh;
 mod outputs;
 mod render;
 mod shape;

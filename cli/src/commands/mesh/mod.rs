@@ -19,7 +19,7 @@ use crate::closed::closed_oriented;
 use crate::codes::Code;
 use crate::console::Seconds;
 use crate::cutaway::{self, Cutaway};
-use crate::failure::{Failure, shell_word};
+use crate::failure::Failure;
 use crate::input::Input;
 use crate::numbers::{self, grouped};
 use crate::output::WriteProblem;
@@ -36,7 +36,7 @@ use product::{Boundary, Product};
 use report::Report;
 use welter_meshing::surface::ClosedOrientedMesh;
 use welter_meshing::volumetric::{
-    TetrahedraError, Verification, VolumeMesh, VolumeParameters, mesh_volume, outward, tetrahedra, verify,
+    TetrahedraError, VolumeMesh, VolumeParameters, mesh_volume, outward, tetrahedra, verify,
 };
 use welter_meshing::{Cancelled, Monitor};
 
@@ -261,19 +261,9 @@ impl Job<'_> {
             dropped: &dropped,
         };
         let failure = match &verification {
-            Some(verification) if !verification.passed() => Some(self.not_verified(verification)),
+            Some(verification) if !verification.passed() => Some(refused::not_verified(args, verification)),
             _ => stopped.map(|stage| self.clock.time_is_up(stage)),
         };
         report.tell(run, &seconds, failure)
-    }
-
-    fn not_verified(&self, verification: &Verification) -> Box<Failure> {
-        let input = shell_word(&self.args.input);
-        let failure = Failure::new(Code::MeshNotVerified, "the mesh that was written is not right")
-            .subject(self.args.output.display().to_string())
-            .help(format!(
-                "send {input} and the command line to the authors; smaller cells may go well: -s LENGTH"
-            ));
-        verification.findings().fold(failure, |failure, finding| failure.place(finding.to_string()))
     }
 }

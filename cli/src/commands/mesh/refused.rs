@@ -6,7 +6,7 @@ use crate::codes::Code;
 use crate::failure::{Failure, shell_word};
 use crate::numbers::{self, grouped, point};
 use welter_meshing::DVec3;
-use welter_meshing::volumetric::{Place, VolumeError};
+use welter_meshing::volumetric::{Place, Verification, VolumeError};
 
 /// What the mesher calls the cells of which there can be too many by a parameter.
 const CELLS_OF_GRID: &str = "cells of the grid";
@@ -97,6 +97,17 @@ pub(super) fn code_of(error: &VolumeError) -> Code {
     }
 }
 
+/// The failure for a mesh that was written and is wrong.
+pub(super) fn not_verified(args: &Args, verification: &Verification) -> Box<Failure> {
+    let failure = Failure::new(Code::MeshNotVerified, "the mesh that was written is wrong")
+        .subject(args.output.display().to_string())
+        .help(format!(
+            "-s LENGTH   # smaller cells may help; and send {} with the command line to the authors",
+            shell_word(&args.input)
+        ));
+    verification.findings().fold(failure, |failure, finding| failure.place(finding.to_string()))
+}
+
 fn middle(place: &Place) -> DVec3 {
     place.min * 0.5 + place.max * 0.5
 }
@@ -130,4 +141,25 @@ fn look(args: &Args, place: &Place, measures: &Measures) -> String {
 
 fn size(sides: DVec3) -> String {
     format!("{} x {} x {}", numbers::number(sides.x), numbers::number(sides.y), numbers::number(sides.z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::{Cli, Command};
+    use clap::Parser;
+    use welter_meshing::volumetric::{Finding, Findings};
+
+    #[test]
+    fn a_wrong_mesh_is_told_with_its_places() {
+        let cli = Cli::try_parse_from(["welter", "mesh", "a.ply", "-o", "a.vtu"]).expect("a command line");
+        let Command::Mesh(args) = cli.command else { panic!("another command") };
+        let finding = Finding::Copies { cell: [1, 2, 3], hexahedra: 1, winding: 2 };
+        let winding_copies = Findings { count: 1, first: vec![finding] };
+        let verification = Verification { winding_copies, ..Verification::default() };
+        assert!(!verification.passed());
+        let failure = not_verified(&args, &verification);
+        assert_eq!((failure.code, failure.code.exit()), (Code::MeshNotVerified, 9));
+        assert!(failure.places[0].starts_with("cell (1, 2, 3) has 1 hexahedra"), "{}", failure.places[0]);
+    }
 }
