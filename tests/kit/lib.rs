@@ -12,6 +12,7 @@ pub mod entropy;
 pub mod exact;
 pub mod fuzz;
 pub mod generate;
+pub mod mesher;
 pub mod volumetric;
 
 /// The code in the project's README is compiled and run.
