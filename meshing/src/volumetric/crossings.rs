@@ -66,7 +66,12 @@ impl Crossings {
                 a.i.cmp(&b.i).then_with(|| along_edge(mesh, grid, axis, row, a, b))
             }))
         };
-        Ok(Self { axes: [of_axis(0)?, of_axis(1)?, of_axis(2)?] })
+        Ok(Self::from_parts([of_axis(0)?, of_axis(1)?, of_axis(2)?]))
+    }
+
+    /// From the crossings along each axis, sorted as they must be.
+    pub(super) fn from_parts(axes: [Rows<Crossing>; 3]) -> Self {
+        Self { axes }
     }
 
     /// The crossings of the edge along an axis that begins at node `i` of a row, as a range among all of the axis.

@@ -57,6 +57,19 @@ impl Extension {
         precursors: Rows<Precursor>,
         monitor: &Monitor<'_>,
     ) -> Result<Self, Cancelled> {
+        let unite = |cell: [u32; 3], triangles: &[Precursor], sets: &mut UnionFind| {
+            unite_neighbours(mesh, pairing, grid, cell, triangles, sets);
+        };
+        Self::from_parts(grid, precursors, unite, monitor)
+    }
+
+    /// From the precursors and what unites those that hang together in a cell, by their places among the precursors of the cell.
+    pub(super) fn from_parts(
+        grid: &Grid3,
+        precursors: Rows<Precursor>,
+        unite: impl Fn([u32; 3], &[Precursor], &mut UnionFind) + Sync,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Cancelled> {
         let stage = monitor.stage("volumetric extension", precursors.count() as u64);
         let parts: Vec<Part> = (0..precursors.count().div_ceil(ROWS))
             .into_par_iter()
@@ -64,7 +77,7 @@ impl Extension {
                 stage.check()?;
                 let rows = chunk * ROWS..precursors.count().min((chunk + 1) * ROWS);
                 let count = rows.len() as u64;
-                let part = Part::of(mesh, pairing, grid, &precursors, rows);
+                let part = Part::of(grid, &precursors, rows, &unite);
                 stage.advance(count);
                 Ok(part)
             })
@@ -102,6 +115,11 @@ impl Extension {
         (&self.precursors.items()[range.clone()], &self.hexahedra[range])
     }
 
+    /// Number of hexahedra in all cells.
+    pub(super) fn count(&self) -> u32 {
+        self.count
+    }
+
     /// The hexahedra in a cell.
     pub(super) fn hexahedra(&self, cell: usize) -> std::ops::Range<u32> {
         let cells = self.cells.items();
@@ -124,11 +142,10 @@ impl Extension {
 
 impl Part {
     fn of(
-        mesh: &TriMesh,
-        pairing: &Pairing,
         grid: &Grid3,
         precursors: &Rows<Precursor>,
         rows: std::ops::Range<usize>,
+        unite: &impl Fn([u32; 3], &[Precursor], &mut UnionFind),
     ) -> Self {
         let ny = grid.nodes()[1] as usize;
         let mut part = Self { cells: Vec::new(), in_rows: Vec::new(), hexahedra: Vec::new(), count: 0 };
@@ -139,7 +156,7 @@ impl Part {
                 let i = triangles[0].i;
                 part.cells.push(SurfaceCell { i, first: first as u32, hexahedron: part.count });
                 first += triangles.len();
-                part.connect(mesh, pairing, grid, [i, (row % ny) as u32, (row / ny) as u32], triangles);
+                part.connect([i, (row % ny) as u32, (row / ny) as u32], triangles, unite);
             }
             part.in_rows.push(part.cells.len() - before);
         }
@@ -149,34 +166,17 @@ impl Part {
     /// Finds the connected parts of the surface in a cell.
     fn connect(
         &mut self,
-        mesh: &TriMesh,
-        pairing: &Pairing,
-        grid: &Grid3,
         cell: [u32; 3],
         triangles: &[Precursor],
+        unite: &impl Fn([u32; 3], &[Precursor], &mut UnionFind),
     ) {
         if triangles.len() == 1 {
             self.hexahedra.push(self.count);
             self.count += 1;
             return;
         }
-        let [min, max] = cell_box(grid, cell);
         let mut sets = UnionFind::new(triangles.len());
-        for (place, precursor) in triangles.iter().enumerate() {
-            let corners = mesh.corners(TriId(precursor.triangle)).map(|p| p.to_array());
-            for k in 0..3 {
-                let neighbour = pairing.neighbour(precursor.triangle, k);
-                if neighbour <= precursor.triangle {
-                    continue;
-                }
-                let Ok(other) = triangles.binary_search_by_key(&neighbour, |p| p.triangle) else { continue };
-                if sets.root(place as u32) != sets.root(other as u32)
-                    && moved_box_meets_segment(min, max, [corners[k], corners[(k + 1) % 3]])
-                {
-                    sets.unite(place as u32, other as u32);
-                }
-            }
-        }
+        unite(cell, triangles, &mut sets);
         let begin = self.hexahedra.len();
         for place in 0..triangles.len() as u32 {
             let root = sets.root(place);
@@ -185,6 +185,33 @@ impl Part {
                 self.count += 1;
             } else {
                 self.hexahedra.push(self.hexahedra[begin + root as usize]);
+            }
+        }
+    }
+}
+
+/// Unites the triangles of a cell that have an edge in common within it.
+fn unite_neighbours(
+    mesh: &TriMesh,
+    pairing: &Pairing,
+    grid: &Grid3,
+    cell: [u32; 3],
+    triangles: &[Precursor],
+    sets: &mut UnionFind,
+) {
+    let [min, max] = cell_box(grid, cell);
+    for (place, precursor) in triangles.iter().enumerate() {
+        let corners = mesh.corners(TriId(precursor.triangle)).map(|p| p.to_array());
+        for k in 0..3 {
+            let neighbour = pairing.neighbour(precursor.triangle, k);
+            if neighbour <= precursor.triangle {
+                continue;
+            }
+            let Ok(other) = triangles.binary_search_by_key(&neighbour, |p| p.triangle) else { continue };
+            if sets.root(place as u32) != sets.root(other as u32)
+                && moved_box_meets_segment(min, max, [corners[k], corners[(k + 1) % 3]])
+            {
+                sets.unite(place as u32, other as u32);
             }
         }
     }

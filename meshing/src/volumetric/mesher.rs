@@ -21,7 +21,8 @@ use crate::{Cancelled, DVec3, Monitor};
 /// A mesh on one grid.
 pub(super) struct OnGrid {
     pub(super) assembled: Assembled,
-    pub(super) hosts: Hosts,
+    /// What became of each hexahedron of the extension.
+    pub(super) became: Vec<u32>,
     pub(super) windings: Vec<i32>,
     /// What cells that the surface does not meet add to the Euler characteristic.
     pub(super) between_surface: i64,
@@ -34,24 +35,38 @@ pub(super) struct Stopped {
     pub(super) place: Place,
 }
 
+impl Stopped {
+    /// At no place more than at another.
+    pub(super) fn nowhere(trouble: impl Into<Trouble>, grid: &Grid3) -> Self {
+        Self { trouble: trouble.into(), place: place_of_cell(grid, [0; 3]) }
+    }
+}
+
 /// Meshes the volume of a surface on the cells of a grid, or says what went wrong.
 pub(super) fn mesh_on_grid(
     mesh: &TriMesh,
     pairing: &Pairing,
     grid: &Grid3,
     monitor: &Monitor<'_>,
-) -> Result<OnGrid, Stopped> {
-    let nowhere = |trouble| Stopped { trouble, place: place_of_cell(grid, [0; 3]) };
-    let (extension, crossings) = cut(mesh, pairing, grid, monitor).map_err(|c| nowhere(c.into()))?;
-    let cut = Cut { grid, crossings: &crossings, extension: &extension };
-    let whole = regions(&cut, None, monitor).map_err(|c| nowhere(c.into()))?;
+) -> Result<(OnGrid, Hosts), Stopped> {
+    let (extension, crossings) = cut(mesh, pairing, grid, monitor).map_err(|c| Stopped::nowhere(c, grid))?;
+    let on_grid = mesh_cut(&Cut { grid, crossings: &crossings, extension: &extension }, monitor)?;
+    let hosts = Hosts::new(mesh, grid, &extension, |h| on_grid.became[h as usize]);
+    Ok((on_grid, hosts))
+}
+
+/// From where the surface meets the cells and cuts their edges to the mesh.
+pub(super) fn mesh_cut(cut: &Cut<'_>, monitor: &Monitor<'_>) -> Result<OnGrid, Stopped> {
+    let grid = cut.grid;
+    let nowhere = |cancelled: Cancelled| Stopped::nowhere(cancelled, grid);
+    let whole = regions(cut, None, monitor).map_err(nowhere)?;
     let stopped =
         |trouble, regions: &Regions<'_>| Stopped { trouble, place: place_of(trouble, grid, regions) };
-    match sew(mesh, &cut, &whole, monitor) {
+    match sew(cut, &whole, monitor) {
         // Perhaps copies of a region change places around it: then only its parts have copies.
         Err(Trouble::Contradiction { given_up: false, .. }) => {
-            let split = regions(&cut, Some(&whole), monitor).map_err(|c| nowhere(c.into()))?;
-            let sewn = sew(mesh, &cut, &split, monitor).map_err(|trouble| stopped(trouble, &split))?;
+            let split = regions(cut, Some(&whole), monitor).map_err(nowhere)?;
+            let sewn = sew(cut, &split, monitor).map_err(|trouble| stopped(trouble, &split))?;
             Ok(OnGrid { windings: whole.windings().to_vec(), ..sewn })
         }
         sewn => sewn.map_err(|trouble| stopped(trouble, &whole)),
@@ -83,12 +98,7 @@ fn regions<'a>(
 }
 
 /// From regions to the mesh.
-fn sew(
-    mesh: &TriMesh,
-    cut: &Cut<'_>,
-    regions: &Regions<'_>,
-    monitor: &Monitor<'_>,
-) -> Result<OnGrid, Trouble> {
+fn sew(cut: &Cut<'_>, regions: &Regions<'_>, monitor: &Monitor<'_>) -> Result<OnGrid, Trouble> {
     if let Some((region, &winding)) = (0..).zip(regions.windings()).find(|&(_, &winding)| winding < 0) {
         return Err(Trouble::Negative { region, winding });
     }
@@ -96,11 +106,11 @@ fn sew(
     let cells = CellHexahedra::new(cut, regions, &sheets, monitor)?;
     let outside = Outside::new(cut, &cells, monitor)?;
     let assembled = assemble(*cut, regions, &sheets, &cells, &outside, monitor)?;
-    let became = |h: u32| assembled.of_surface[cells.of_extension(h) as usize];
-    let hosts = Hosts::new(mesh, cut.grid, cut.extension, became);
+    let became =
+        (0..cut.extension.count()).map(|h| assembled.of_surface[cells.of_extension(h) as usize]).collect();
     Ok(OnGrid {
         assembled,
-        hosts,
+        became,
         windings: regions.windings().to_vec(),
         between_surface: between_surface(cut, regions),
         ambiguous: sheets.ambiguous(),

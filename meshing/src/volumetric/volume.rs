@@ -7,7 +7,7 @@ use super::pairing::Pairing;
 use super::verify::{check_euler, place_of};
 use super::{CoarsenError, HexMesh, Resolution, VolumeParameters, euler_characteristics};
 use crate::Monitor;
-use crate::grid::Grid3;
+use crate::grid::{Grid, Grid3};
 use crate::spatial::Box3;
 use crate::surface::ClosedOrientedMesh;
 
@@ -83,42 +83,69 @@ pub fn mesh_volume(
         return Err(VolumeError::Empty);
     }
     let pairing = Pairing::new(surface);
+    let (volume, refinements) = on_finer_grids(
+        parameters,
+        |refinements| grid_for(surface, parameters, refinements),
+        |grid, refinements| {
+            let (on_grid, hosts) = mesh_on_grid(surface, &pairing, grid, monitor)
+                .map_err(|stopped| told(stopped, grid.spacing(), refinements))?;
+            checked(on_grid, hosts, &pairing, parameters, refinements, monitor)
+        },
+    )?;
+    coarsened(volume, refinements + parameters.coarsenings, monitor)
+}
+
+/// The mesh on one grid, unless features of the surface were too fine for its cells.
+fn checked(
+    on_grid: OnGrid,
+    hosts: Hosts,
+    pairing: &Pairing,
+    parameters: &VolumeParameters,
+    refinements: u32,
+    monitor: &Monitor<'_>,
+) -> Result<VolumeMesh, VolumeError> {
+    let OnGrid { mut assembled, windings, between_surface, ambiguous, .. } = on_grid;
+    let doubtful = parameters.check_topology && {
+        let part = &assembled.of_surface;
+        let at_surface = assembled.mesh.with_some(part, |part| euler_characteristics(part, monitor))?;
+        let sum = at_surface.total().euler_characteristic() + between_surface;
+        2 * sum != pairing.characteristics().iter().sum::<i64>()
+    };
+    let volume = VolumeMesh {
+        mesh: assembled.mesh,
+        regions: assembled.regions,
+        copies: assembled.copies,
+        hosts,
+        windings,
+        ambiguous,
+        refinements,
+        coarsenings: 0,
+    };
+    match if doubtful { fault(&volume, pairing, monitor)? } else { None } {
+        None => Ok(volume),
+        Some(error) => Err(error),
+    }
+}
+
+/// Meshes on the grid after no halving of its cells, and on finer ones while its cells are too large. Returns the number of halvings too.
+pub(super) fn on_finer_grids<G, T>(
+    parameters: &VolumeParameters,
+    grid_for: impl Fn(u32) -> Result<G, VolumeError>,
+    mesh_on: impl Fn(&G, u32) -> Result<T, VolumeError>,
+) -> Result<(T, u32), VolumeError> {
     let mut refinements = 0;
+    let mut grid = grid_for(refinements)?;
     loop {
-        let grid = grid_for(surface, parameters, refinements)?;
-        let error = match mesh_on_grid(surface, &pairing, &grid, monitor) {
-            Ok(OnGrid { mut assembled, hosts, windings, between_surface, ambiguous }) => {
-                let doubtful = parameters.check_topology && {
-                    let at_surface = assembled
-                        .mesh
-                        .with_some(&assembled.of_surface, |part| euler_characteristics(part, monitor))?;
-                    let sum = at_surface.total().euler_characteristic() + between_surface;
-                    2 * sum != pairing.characteristics().iter().sum::<i64>()
-                };
-                let volume = VolumeMesh {
-                    mesh: assembled.mesh,
-                    regions: assembled.regions,
-                    copies: assembled.copies,
-                    hosts,
-                    windings,
-                    ambiguous,
-                    refinements,
-                    coarsenings: 0,
-                };
-                match if doubtful { fault(&volume, &pairing, monitor)? } else { None } {
-                    None => return coarsened(volume, refinements + parameters.coarsenings, monitor),
-                    Some(error) => error,
-                }
-            }
-            Err(stopped) => told(stopped, &grid, refinements),
+        let error = match mesh_on(&grid, refinements) {
+            Ok(mesh) => return Ok((mesh, refinements)),
+            Err(error) => error,
         };
         let finer = refinements + 1;
-        let more = matches!(error, VolumeError::UnderResolved { .. })
-            && finer <= parameters.max_refinements
-            && grid_for(surface, parameters, finer).is_ok();
-        if !more {
-            return Err(error);
-        }
+        let more = matches!(error, VolumeError::UnderResolved { .. }) && finer <= parameters.max_refinements;
+        grid = match grid_for(finer) {
+            Ok(grid) if more => grid,
+            _ => return Err(error),
+        };
         refinements = finer;
     }
 }
@@ -164,30 +191,42 @@ pub(crate) fn grid_for(
     refinements: u32,
 ) -> Result<Grid3, VolumeError> {
     let around = Box3::of(surface.triangles().iter().flatten().map(|v| surface.positions()[v.index()]));
-    let size = around.max - around.min;
+    grid_around(around.min.to_array(), around.max.to_array(), parameters, refinements)
+}
+
+/// The grid around a box, after some halvings of its cells.
+///
+/// # Errors
+/// [`VolumeError::Grid`] and [`VolumeError::TooLarge`].
+pub(super) fn grid_around<const D: usize>(
+    min: [f64; D],
+    max: [f64; D],
+    parameters: &VolumeParameters,
+    refinements: u32,
+) -> Result<Grid<D>, VolumeError> {
+    let size: [f64; D] = std::array::from_fn(|axis| max[axis] - min[axis]);
     let spacing = match parameters.resolution {
         Resolution::Spacing(spacing) => spacing,
         // A flat surface has no shortest side; the next one stands for it.
         Resolution::ShortestSide(n) => {
-            let mut sides = size.to_array();
+            let mut sides = size;
             sides.sort_by(f64::total_cmp);
             let side = sides.into_iter().find(|&side| side > 0.0).unwrap_or(1.0);
             side / f64::from(n)
         }
     };
     let spacing = spacing * 0.5f64.powi(refinements as i32);
-    let cells = (0..3).map(|axis| size[axis] / spacing + 3.0).product::<f64>();
+    let cells = size.iter().map(|side| side / spacing + 3.0).product::<f64>();
     if cells > parameters.max_cells as f64 {
         let count = if cells < 1e18 { cells as u64 } else { u64::MAX };
         return Err(VolumeError::TooLarge { what: "cells of the grid", count, most: parameters.max_cells });
     }
-    Ok(Grid3::covering(around.min.to_array(), around.max.to_array(), spacing, 1)?)
+    Ok(Grid::covering(min, max, spacing, 1)?)
 }
 
 /// What went wrong, with its place.
-fn told(Stopped { trouble, place }: Stopped, grid: &Grid3, refinements: u32) -> VolumeError {
-    let under_resolved =
-        |what| VolumeError::UnderResolved { place, what, spacing: grid.spacing(), refinements };
+pub(super) fn told(Stopped { trouble, place }: Stopped, spacing: f64, refinements: u32) -> VolumeError {
+    let under_resolved = |what| VolumeError::UnderResolved { place, what, spacing, refinements };
     match trouble {
         Trouble::Negative { winding, .. } => VolumeError::Negative { place, winding },
         Trouble::TooManyCopies { copies, .. } => {

@@ -29,7 +29,8 @@ pub fn body(seed: u64) -> Body {
         return first;
     }
     let mut second = outward(one(random));
-    let (scale, shift) = (first.radius / second.radius * random.between(0.7, 1.4), random.point() * first.radius);
+    let (scale, shift) =
+        (first.radius / second.radius * random.between(0.7, 1.4), random.point() * first.radius);
     let middle = |solid: &Solid| solid.positions.iter().sum::<DVec3>() / solid.positions.len() as f64;
     let (from, to) = (middle(&second.solid), middle(&first.solid));
     second.solid.positions.iter_mut().for_each(|p| *p = (*p - from) * scale + to + shift);
@@ -158,8 +159,10 @@ fn tube(random: &mut Random, closed: bool) -> Body {
         }
     }
     let solid = Solid::of_cubes(&cubes, same, place);
-    let name = format!("tube, {}, tightness {tightness:.2}", ["open", "closed", "half a turn"]
-        [usize::from(closed) + usize::from(half_turn)]);
+    let name = format!(
+        "tube, {}, tightness {tightness:.2}",
+        ["open", "closed", "half a turn"][usize::from(closed) + usize::from(half_turn)]
+    );
     Body { name, solid, radius: radius * flat, round: closed.then_some(f64::from(n)) }
 }
 
@@ -175,13 +178,17 @@ fn roll(random: &mut Random) -> Body {
             }
         }
     }
-    let (turns, inner, drift) = (random.between(1.1, 2.6), random.between(1.0, 2.0), random.between(-0.3, 0.6));
+    let (turns, inner, drift) =
+        (random.between(1.1, 2.6), random.between(1.0, 2.0), random.between(-0.3, 0.6));
     let (thick, pitch) = (random.between(0.3, 0.8), random.between(-1.0, 1.0));
     let place = |[i, j, k]: [i32; 3]| {
         let t = f64::from(i) / f64::from(length);
         let radius = inner + drift * t + thick * f64::from(k);
         let angle = TAU * turns * t;
-        (DVec3::new(radius * libm::cos(angle), radius * libm::sin(angle), 0.5 * f64::from(j) + pitch * t), f64::from(i))
+        (
+            DVec3::new(radius * libm::cos(angle), radius * libm::sin(angle), 0.5 * f64::from(j) + pitch * t),
+            f64::from(i),
+        )
     };
     let solid = Solid::of_cubes(&cubes, |at| at, place);
     Body { name: "roll".into(), solid, radius: thick / 2.0, round: None }
@@ -206,7 +213,8 @@ fn bent_block(random: &mut Random) -> Body {
             }
         }
     }
-    let (turns, radius, pitch) = (random.between(0.6, 1.8), random.between(2.2, 4.0), random.between(-2.0, 2.0));
+    let (turns, radius, pitch) =
+        (random.between(0.6, 1.8), random.between(2.2, 4.0), random.between(-2.0, 2.0));
     let place = |[i, j, k]: [i32; 3]| {
         let t = f64::from(i) / f64::from(length);
         let (angle, r) = (TAU * turns * t, radius + f64::from(k) - 1.5);

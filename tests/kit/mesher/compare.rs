@@ -60,7 +60,13 @@ impl Map {
     }
 
     /// Maps a hexahedron and all that hang together with it.
-    fn follow(&mut self, a: &Complex, b: &Complex, motion: &Motion<'_>, start: [u32; 2]) -> Result<(), String> {
+    fn follow(
+        &mut self,
+        a: &Complex,
+        b: &Complex,
+        motion: &Motion<'_>,
+        start: [u32; 2],
+    ) -> Result<(), String> {
         let sides = motion.sides();
         let mut stack = vec![start];
         while let Some([x, y]) = stack.pop() {
@@ -81,8 +87,12 @@ impl Map {
             self.back[of_y] = true;
             for c in 0..8 {
                 let (v, w) = (a.corners[of_x][c], b.corners[of_y][motion.corners[c]]);
-                if *self.vertices.entry(v).or_insert(w) != w || *self.vertices_back.entry(w).or_insert(v) != v {
-                    return Err(format!("corner {c} of hexahedra {x} and {y}, cell {}: vertices differ", a.cells[of_x]));
+                if *self.vertices.entry(v).or_insert(w) != w || *self.vertices_back.entry(w).or_insert(v) != v
+                {
+                    return Err(format!(
+                        "corner {c} of hexahedra {x} and {y}, cell {}: vertices differ",
+                        a.cells[of_x]
+                    ));
                 }
             }
             for side in 0..6 {
@@ -152,7 +162,10 @@ pub fn equals_unfolded(volume: &VolumeMesh, solid: &Solid, unfolded: &Unfolded) 
     for &[h, triangle] in &volume.hosts.triangles {
         let cell = volume.mesh.cells()[h as usize] as usize;
         let hexahedron = unfolded.hexahedron(cell, solid.tet_of[triangle as usize]);
-        pairs.push([hexahedron.ok_or("a triangle lies in a cell that its tetrahedron does not meet")? as u32, h]);
+        pairs.push([
+            hexahedron.ok_or("a triangle lies in a cell that its tetrahedron does not meet")? as u32,
+            h,
+        ]);
     }
     for &start in &pairs {
         map.follow(&ours, &theirs, &Motion::none(), start)?;

@@ -35,7 +35,8 @@ pub(super) fn cells_along(grid: &Grid3, axis: usize, low: f64, high: f64) -> std
 pub(super) fn cells_near(grid: &Grid3, points: &[[f64; 3]], mut f: impl FnMut([u32; 3])) {
     let range = |axis: usize| {
         let values = points.iter().map(|p| p[axis]);
-        let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
+        let (low, high) =
+            (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
         cells_along(grid, axis, low, high)
     };
     for k in range(2) {
@@ -61,7 +62,8 @@ impl Unfolded {
             let corners = solid.places(solid.tets[t as usize]);
             let sides = [0, 1, 2, 3].map(|side| solid.places(solid.side(t, side)));
             cells_near(grid, &corners, |cell| {
-                let beside = |side: &[[f64; 3]; 3]| orient3d_moved(side[0], side[1], side[2], grid.node(cell));
+                let beside =
+                    |side: &[[f64; 3]; 3]| orient3d_moved(side[0], side[1], side[2], grid.node(cell));
                 let within = || sides.iter().all(|side| beside(side) == Sign::Positive);
                 if sides.iter().any(|&side| meets(grid, cell, side)) || within() {
                     unfolded.pairs.push((grid.cell_index(cell), t));
