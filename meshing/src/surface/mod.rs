@@ -13,7 +13,7 @@ mod duplicates;
 pub(crate) mod edges;
 mod embedded;
 mod ids;
-mod list;
+pub(crate) mod list;
 pub mod measure;
 mod soup;
 pub(crate) mod topology;

@@ -40,8 +40,8 @@ pub enum VolumeError {
         /// What it may be.
         range: &'static str,
     },
-    /// The surface has no triangles.
-    #[error("the surface has no triangles")]
+    /// The surface has no triangles, or there are no curves.
+    #[error("there is no surface and no curve")]
     Empty,
     /// Around some place the surface winds the wrong way: no volume has such a boundary.
     #[error(
@@ -52,6 +52,16 @@ pub enum VolumeError {
         place: Place,
         /// How often the surface winds around it.
         winding: i32,
+    },
+    /// Curves in the plane turn around so often that no surface has them as its boundary.
+    #[error(
+        "the curves turn around {turning} times in all: no surface with {curves} boundary curves does so"
+    )]
+    Turning {
+        /// The sum of their turning numbers, at least.
+        turning: i64,
+        /// How many curves.
+        curves: usize,
     },
     /// More sheets lie over one another than can be told apart.
     #[error("{copies} sheets lie over one another around {place}, at most {most} can be told apart")]

@@ -24,6 +24,7 @@ mod outward;
 mod pairing;
 mod parameters;
 mod pieces;
+pub mod plane;
 mod precursors;
 mod quality;
 mod rows;
