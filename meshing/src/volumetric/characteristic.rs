@@ -105,7 +105,8 @@ mod tests {
                 ..VolumeParameters::default()
             };
             let grid = grid_for(&surface, &parameters, 0).unwrap();
-            let Ok(mut on_grid) = mesh_on_grid(&surface, &Pairing::new(&surface), &grid, &Monitor::none())
+            let Ok((mut on_grid, _)) =
+                mesh_on_grid(&surface, &Pairing::new(&surface), &grid, &Monitor::none())
             else {
                 panic!("{name} is meshed")
             };

@@ -95,8 +95,8 @@ impl Map {
                     ));
                 }
             }
-            for side in 0..6 {
-                let (p, q) = (&a.across[of_x][side], &b.across[of_y][sides[side]]);
+            for (side, &other) in sides.iter().enumerate() {
+                let (p, q) = (&a.across[of_x][side], &b.across[of_y][other]);
                 if p.len() != q.len() {
                     return Err(format!(
                         "cell {}: across side {side} of hexahedra {x} and {y} lie {p:?} and {q:?}",

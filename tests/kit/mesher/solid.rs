@@ -133,7 +133,7 @@ impl Solid {
 
 /// A closed oriented surface that is known to be one.
 #[must_use]
-pub fn surface_of(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> ClosedOrientedMesh {
+pub(super) fn surface_of(positions: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> ClosedOrientedMesh {
     let soup = TriangleSoup { positions, triangles, ..TriangleSoup::default() };
     ClosedOrientedMesh::new(TriMesh::new(soup).expect("finite, in range")).expect("closed and oriented")
 }
