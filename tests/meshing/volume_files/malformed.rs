@@ -48,10 +48,10 @@ fn truncation_at_every_byte_is_an_error() {
 fn changed_bytes_never_panic_and_never_make_more_than_the_file_holds() {
     for (form, file, mesh) in files() {
         let mut unchanged = 0;
-        for at in 0..file.len() {
+        for (turn, at) in (0..file.len()).step_by(3).enumerate() {
             let changes = [0, 0xff, b'9', b'-', b'<', b' ', b'\n', file[at] ^ 1, file[at] ^ 0x80];
-            // Two of them at each byte, by turns.
-            for change in [changes[at % 9], changes[(at / 9 + 4) % 9]] {
+            // Two of them at every third byte, by turns.
+            for change in [changes[turn % 9], changes[(turn / 9 + 4) % 9]] {
                 let mut changed = file.clone();
                 changed[at] = change;
                 if let Ok((read, _)) = form.read(&changed) {
@@ -68,7 +68,7 @@ fn changed_bytes_never_panic_and_never_make_more_than_the_file_holds() {
             }
         }
         // Of white space, comments and unread numbers there are some, but most of a file matters.
-        assert!(unchanged < file.len() as u32, "{form:?}: {unchanged} of {}", 2 * file.len());
+        assert!(unchanged < file.len() as u32 / 3, "{form:?}: {unchanged} of {}", 2 * file.len() / 3);
     }
 }
 
