@@ -1,4 +1,4 @@
-//! Tests of volumetric meshes in files: round trips bit for bit, malformed input with its place, truncation and corruption at every byte,
+//! Tests of volumetric meshes in files: round trips bit for bit, malformed input with its place, truncation at every byte, changed bytes,
 //! and what other programs read of files written here.
 
 mod accepted;
