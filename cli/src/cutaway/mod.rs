@@ -43,6 +43,9 @@ pub(crate) struct Cutaway<'a> {
 /// Share of its colour that a face off the cut keeps; the rest is that of a plain surface.
 const OFF_THE_CUT: f32 = 0.35;
 
+/// Share of white in the colour of the last of several hexahedra on one cell.
+const LIGHTER: f32 = 0.12;
+
 /// Degrees that the view is turned from the front of a cut, and raised.
 const SLANT: (f64, f64) = (28.0, 26.0);
 
@@ -172,7 +175,7 @@ impl<'a> Colors<'a> {
         Ok(Self { of })
     }
 
-    fn color(&self, face: Face) -> [u8; 3] {
+    fn color(&self, face: Face, lighter: f32) -> [u8; 3] {
         let hexahedron = face.hexahedron;
         let color = match &self.of {
             Of::Components(of) => Rgb::of_bytes(picture::distinct(of[hexahedron as usize] as usize)),
@@ -181,7 +184,7 @@ impl<'a> Colors<'a> {
             }
         };
         let amount = if face.kind == Kind::Cut { 1.0 } else { OFF_THE_CUT };
-        Style::default().front.mix(color, amount).to_bytes()
+        Style::default().front.mix(color, amount).mix(Rgb::new(1.0, 1.0, 1.0), lighter).to_bytes()
     }
 }
 
@@ -236,7 +239,9 @@ impl Seen {
         }
         for face in faces.stacks() {
             let corners = faces.corners(face[0], mesh);
-            let color = |k: usize| colors.color(face[k]);
+            // Lighter from one to the next: their places along the mesh may happen to be as far from its end.
+            let step = LIGHTER / (face.len().max(2) - 1) as f32;
+            let color = |k: usize| colors.color(face[k], step * k as f32);
             if face.len() > 1 && face.iter().any(|face| face.kind == Kind::Cut) {
                 seen.shared += 1;
                 seen.most = seen.most.max(face.len());

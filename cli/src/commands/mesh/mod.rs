@@ -18,11 +18,12 @@ mod volume_file;
 use crate::closed::closed_oriented;
 use crate::codes::Code;
 use crate::console::Seconds;
-use crate::cutaway::{self, Cutaway};
+use crate::cutaway::{self, Cutaway, Problem};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::numbers::{self, grouped};
 use crate::output::WriteProblem;
+use crate::render::{Cut, Image};
 use crate::run::{Outcome, Run};
 use crate::surface_file::refuse_standard_output_with_json;
 use crate::{machine, picture};
@@ -36,7 +37,7 @@ use product::{Boundary, Product};
 use report::Report;
 use welter_meshing::surface::ClosedOrientedMesh;
 use welter_meshing::volumetric::{
-    TetrahedraError, VolumeMesh, VolumeParameters, mesh_volume, outward, tetrahedra, verify,
+    TetrahedraError, Verification, VolumeMesh, VolumeParameters, mesh_volume, outward, tetrahedra, verify,
 };
 use welter_meshing::{Cancelled, Monitor};
 
@@ -190,80 +191,104 @@ impl Job<'_> {
         monitor: &Monitor<'_>,
     ) -> Outcome {
         let (args, console) = (self.args, &run.console);
-        let free = args.reading.max_memory.or_else(machine::available_memory);
-        let mut stopped = None;
-        let found = console.stage(&mut seconds, "topology", || Topology::of(&product.volume, free, monitor));
-        let topology = found.map_err(|Cancelled| stopped = Some("counting components")).ok();
-        product.components = match &topology {
-            Some(topology) => topology.components.labels().of().to_vec(),
-            None => vec![0; product.volume.mesh.len()],
-        };
-        let verification = match (args.no_verify, stopped) {
-            (false, None) => {
-                let found =
-                    console.stage(&mut seconds, "verifying", || verify(surface, &product.volume, monitor));
-                found.map_err(|Cancelled| stopped = Some("verifying")).ok()
-            }
-            _ => None,
-        };
-        let mut picture_cut = None;
-        let mut image = None;
-        if let Some(name) = &args.picture
-            && stopped.is_none()
-        {
-            let mesh = &product.volume.mesh;
-            let view = Cutaway {
-                mesh,
-                components: &product.components,
-                cut: args.cut.unwrap_or_else(|| cutaway::through_overlap(mesh)),
-                camera: args.camera,
-                size: args.picture_size,
-                title: &args.input.file_stem().unwrap_or(name.as_os_str()).to_string_lossy(),
-            };
-            picture_cut = Some(view.cut);
-            match cutaway::draw(&view, run, &mut seconds, monitor) {
-                Ok(drawn) => image = Some(drawn),
-                Err(cutaway::Problem::Cancelled) => stopped = Some("drawing the picture"),
-                Err(problem) => return Err(problem.into_failure()),
-            }
-        }
+        let found = self.find_out(surface, &mut product, run, &mut seconds, monitor)?;
         let groups = Groups::of(surface);
-        let dropped = console.stage(&mut seconds, "writing", || -> Result<Vec<String>, Box<Failure>> {
-            let boundary = if outputs.writing.with_boundary {
-                // Nobody asks to stop here: the mesh is to be written.
-                Boundary::of(&product, surface, &groups, &Monitor::none()).unwrap_or_default()
-            } else {
-                Boundary::default()
-            };
-            let dropped = outputs.writing.write(outputs.volume, &product, &boundary)?;
-            if let Some(hosts) = outputs.hosts {
-                hosts.write(|file| hosts::write_hosts(file, &product).map_err(WriteProblem::Io))?;
-            }
-            if let (Some(output), Some(image)) = (outputs.picture, &image) {
-                picture::write_png(image, output)?;
-            }
-            Ok(dropped)
+        let dropped = console.stage(&mut seconds, "writing", || {
+            write(surface, &product, &groups, outputs, found.image.as_ref())
         })?;
         console.progress.clear();
         for loss in &dropped {
             console.note(&format!("{}: {loss}", args.output.display()));
         }
-        let report = Report {
-            job: self,
-            facts: Facts {
-                product: &product,
-                topology: topology.as_ref(),
-                verification: verification.as_ref(),
-                surface_volume: self.measures.volume,
-            },
-            groups: &groups,
-            cut: picture_cut,
-            dropped: &dropped,
+        let facts = Facts {
+            product: &product,
+            topology: found.topology.as_ref(),
+            verification: found.verification.as_ref(),
+            surface_volume: self.measures.volume,
         };
-        let failure = match &verification {
+        let report = Report { job: self, facts, groups: &groups, cut: found.cut, dropped: &dropped };
+        let failure = match &found.verification {
             Some(verification) if !verification.passed() => Some(refused::not_verified(args, verification)),
-            _ => stopped.map(|stage| self.clock.time_is_up(stage)),
+            _ => found.stopped.map(|stage| self.clock.time_is_up(stage)),
         };
         report.tell(run, &seconds, failure)
     }
+
+    /// Looks at the mesh until the time is up. Sets the components of the product.
+    fn find_out(
+        &self,
+        surface: &ClosedOrientedMesh,
+        product: &mut Product,
+        run: &Run,
+        seconds: &mut Seconds,
+        monitor: &Monitor<'_>,
+    ) -> Result<Found, Box<Failure>> {
+        let (args, console) = (self.args, &run.console);
+        let free = args.reading.max_memory.or_else(machine::available_memory);
+        let mut found = Found::default();
+        product.components = vec![0; product.volume.mesh.len()];
+        match console.stage(seconds, "topology", || Topology::of(&product.volume, free, monitor)) {
+            Ok(topology) => {
+                product.components.copy_from_slice(topology.components.labels().of());
+                found.topology = Some(topology);
+            }
+            Err(Cancelled) => return Ok(Found { stopped: Some("counting components"), ..found }),
+        }
+        if !args.no_verify {
+            match console.stage(seconds, "verifying", || verify(surface, &product.volume, monitor)) {
+                Ok(verification) => found.verification = Some(verification),
+                Err(Cancelled) => return Ok(Found { stopped: Some("verifying"), ..found }),
+            }
+        }
+        if args.picture.is_some() {
+            let (mesh, components) = (&product.volume.mesh, &product.components[..]);
+            let cut = args.cut.unwrap_or_else(|| cutaway::through_overlap(mesh));
+            let title = &args.input.file_stem().unwrap_or_default().to_string_lossy();
+            let view = Cutaway { mesh, components, cut, camera: args.camera, size: args.picture_size, title };
+            match cutaway::draw(&view, run, seconds, monitor) {
+                Ok(image) => (found.image, found.cut) = (Some(image), Some(cut)),
+                Err(Problem::Cancelled) => {
+                    return Ok(Found { stopped: Some("drawing the picture"), ..found });
+                }
+                Err(problem) => return Err(problem.into_failure()),
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// What was found out about a mesh.
+#[derive(Default)]
+struct Found {
+    topology: Option<Topology>,
+    verification: Option<Verification>,
+    image: Option<Image>,
+    /// Where the picture is cut.
+    cut: Option<Cut>,
+    /// What was under way when the time was up.
+    stopped: Option<&'static str>,
+}
+
+/// Writes everything; returns what the format could not hold.
+fn write(
+    surface: &ClosedOrientedMesh,
+    product: &Product,
+    groups: &Groups,
+    outputs: Outputs,
+    image: Option<&Image>,
+) -> Result<Vec<String>, Box<Failure>> {
+    let boundary = if outputs.writing.with_boundary {
+        // Nobody asks to stop here: the mesh is to be written.
+        Boundary::of(product, surface, groups, &Monitor::none()).unwrap_or_default()
+    } else {
+        Boundary::default()
+    };
+    let dropped = outputs.writing.write(outputs.volume, product, &boundary)?;
+    if let Some(output) = outputs.hosts {
+        output.write(|file| hosts::write_hosts(file, product).map_err(WriteProblem::Io))?;
+    }
+    if let (Some(output), Some(image)) = (outputs.picture, image) {
+        picture::write_png(image, output)?;
+    }
+    Ok(dropped)
 }
