@@ -92,6 +92,9 @@ fn people_are_told_what_scripts_are() {
     assert!(ran.err.contains("note: a.vtu written"), "{}", ran.err);
     let (object, _) = bench.json("mesh a.obj -o a.vtu -r 5 --no-verify --force");
     assert_eq!(object["verification"], Value::Null);
+    assert_eq!(object["betti"], json!([1, 0, 0]));
+    let (object, _) = bench.json("mesh a.obj -o a.vtu -r 5 --no-betti --force");
+    assert_eq!((&object["betti"], &object["components"]), (&Value::Null, &1.into()), "{object:#}");
     let quiet = bench.run("mesh a.obj -o a.vtu -r 5 --force --quiet").ok();
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
     let chosen = bench.run("mesh a.obj -o a.vtu --force --no-verify").ok();

@@ -80,7 +80,7 @@ impl Facts<'_> {
         if let Some(topology) = self.topology {
             rows.push(("components", count(topology.components.counts().len())));
             rows.push(("Euler characteristic", grouped(topology.euler_characteristic())));
-            let betti = topology.betti.map_or("not computed: too large".to_owned(), |numbers| {
+            let betti = topology.betti.map_or("not computed".to_owned(), |numbers| {
                 numbers.map(grouped).join(" ") + "   (pieces, tunnels, cavities)"
             });
             rows.push(("Betti numbers", betti));

@@ -11,21 +11,24 @@ const BYTES_A_CELL: u64 = 60;
 /// How a mesh hangs together.
 pub(crate) struct Topology {
     pub(super) components: Components,
-    /// Pieces, tunnels, cavities; none if they take more memory or time than there is.
+    /// Pieces, tunnels, cavities; none if they take more memory or time than there is, or if nobody wants them.
     pub(super) betti: Option<[u64; 3]>,
 }
 
 impl Topology {
-    /// Components and Euler characteristics; Betti numbers too if they take no more memory than is `free`.
+    /// Components and Euler characteristics; Betti numbers too if they take no more memory than `for_betti`.
     pub(super) fn of(
         volume: &VolumeMesh,
-        free: Option<u64>,
+        for_betti: Option<u64>,
         monitor: &Monitor<'_>,
     ) -> Result<Self, Cancelled> {
         let components = euler_characteristics(&volume.mesh, monitor)?;
         let mut limits = BettiLimits::default();
-        if let Some(free) = free {
-            limits.most_cells = limits.most_cells.min(free / BYTES_A_CELL);
+        if let Some(bytes) = for_betti {
+            limits.most_cells = limits.most_cells.min(bytes / BYTES_A_CELL);
+        }
+        if components.total().total() > limits.most_cells {
+            return Ok(Self { components, betti: None });
         }
         let betti = match betti_numbers(&volume.mesh, &limits, monitor) {
             // There is no fourth: a closed hypersurface of sheets would be a fault that the Euler characteristic shows.

@@ -224,10 +224,12 @@ impl Job<'_> {
         monitor: &Monitor<'_>,
     ) -> Result<Found, Box<Failure>> {
         let (args, console) = (self.args, &run.console);
-        let free = args.reading.max_memory.or_else(machine::available_memory);
+        let taken = machine::peak_memory().unwrap_or(0);
+        let left = args.reading.max_memory.map(|most| most.saturating_sub(taken));
+        let for_betti = if args.no_betti { Some(0) } else { left.or_else(machine::available_memory) };
         let mut found = Found::default();
         product.components = vec![0; product.volume.mesh.len()];
-        match console.stage(seconds, "topology", || Topology::of(&product.volume, free, monitor)) {
+        match console.stage(seconds, "topology", || Topology::of(&product.volume, for_betti, monitor)) {
             Ok(topology) => {
                 product.components.copy_from_slice(topology.components.labels().of());
                 found.topology = Some(topology);

@@ -70,6 +70,9 @@ pub(crate) struct Args {
     /// Leave the check out
     #[arg(long)]
     pub(super) no_verify: bool,
+    /// Leave out the Betti numbers, which take most of the time and memory for millions of hexahedra
+    #[arg(long)]
+    pub(super) no_betti: bool,
     /// Turn components of the surface outward that are inside out and lie in no other
     #[arg(long)]
     pub(super) outward: bool,
