@@ -11,6 +11,7 @@ mod cut_cells;
 mod distance;
 mod io;
 mod isosurface;
+mod mesher;
 mod remesh;
 mod shapes;
 mod spatial;

@@ -38,7 +38,8 @@ fn outcome(seed: u64) -> Outcome {
     let refinements = number_from("WELTER_MESHER_REFINEMENTS", 2) as u32;
     let parameters = parameters(&body, seed, refinements);
     let immersed = body.solid.inverted() == 0;
-    let outcome = |kind: &str, note: String| Outcome { kind: kind.into(), note: format!("{}: {note}", body.name) };
+    let outcome =
+        |kind: &str, note: String| Outcome { kind: kind.into(), note: format!("{}: {note}", body.name) };
     let volume = match mesh_volume(&surface, &parameters, &Monitor::none()) {
         Ok(volume) => volume,
         Err(error @ VolumeError::Negative { .. }) if immersed => {
@@ -110,7 +111,10 @@ fn stays_apart(body: &Body, unfolded: &Unfolded, volume: &VolumeMesh) -> Result<
         if let Some(steps) = complex.distances(h - 1)[h]
             && f64::from(steps) < least
         {
-            return Err(format!("hexahedra {} and {h} are {steps} steps apart, at least {least} are needed", h - 1));
+            return Err(format!(
+                "hexahedra {} and {h} are {steps} steps apart, at least {least} are needed",
+                h - 1
+            ));
         }
     }
     Ok(())
