@@ -12,6 +12,7 @@ mod distance;
 mod io;
 mod isosurface;
 mod mesher;
+mod plane;
 mod remesh;
 mod shapes;
 mod spatial;

@@ -99,8 +99,8 @@ fn regions<'a>(
 
 /// From regions to the mesh.
 fn sew(cut: &Cut<'_>, regions: &Regions<'_>, monitor: &Monitor<'_>) -> Result<OnGrid, Trouble> {
-    if let Some((region, &winding)) = (0..).zip(regions.windings()).find(|&(_, &winding)| winding < 0) {
-        return Err(Trouble::Negative { region, winding });
+    if let Some(region) = largest_negative(cut.grid, regions) {
+        return Err(Trouble::Negative { region, winding: regions.windings()[region as usize] });
     }
     let sheets = Sheets::new(cut, regions, monitor)?;
     let cells = CellHexahedra::new(cut, regions, &sheets, monitor)?;
@@ -115,6 +115,15 @@ fn sew(cut: &Cut<'_>, regions: &Regions<'_>, monitor: &Monitor<'_>) -> Result<On
         between_surface: between_surface(cut, regions),
         ambiguous: sheets.ambiguous(),
     })
+}
+
+/// The region of negative winding number with the most nodes, the first of those with as many.
+fn largest_negative(grid: &Grid3, regions: &Regions<'_>) -> Option<u32> {
+    let first = regions.windings().iter().position(|&winding| winding < 0)?;
+    let mut nodes = vec![0; regions.windings().len()];
+    regions.pieces.for_each_piece(grid, |piece, _, _, count| nodes[regions.of(piece) as usize] += count);
+    let negative = (first..nodes.len()).filter(|&region| regions.windings()[region] < 0);
+    negative.rev().max_by_key(|&region| nodes[region]).map(|region| region as u32)
 }
 
 /// Where something went wrong.

@@ -171,12 +171,13 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// The order of two crossings of one edge: where they are at one place the one that enters comes first.
+    /// The order of two crossings of one edge. Where they are at one place it is as if each segment were moved outward, those of lower
+    /// numbers by more: so bodies that touch overlap by nothing, and of loops that coincide each lies within the one before.
     fn along_edge(&self, axis: usize, j: usize, a: &Crossing, b: &Crossing) -> Ordering {
         let across = if axis == 0 { self.grid.coordinate(1, j as u32) } else { self.grid.coordinate(0, a.i) };
         let [s, t] = [a, b].map(|crossing| self.wall(crossing.triangle));
-        compare_crossings(axis, Self::line(axis, across), s, t)
-            .then(b.enters.cmp(&a.enters))
-            .then(a.triangle.cmp(&b.triangle))
+        let outermost = a.triangle.cmp(&b.triangle);
+        let tied = if a.enters { outermost } else { outermost.reverse() };
+        compare_crossings(axis, Self::line(axis, across), s, t).then(b.enters.cmp(&a.enters)).then(tied)
     }
 }
