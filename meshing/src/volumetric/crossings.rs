@@ -93,7 +93,10 @@ fn along_edge(mesh: &TriMesh, grid: &Grid3, axis: usize, row: usize, a: &Crossin
     let node = grid.node([a.i, (row % ny) as u32, (row / ny) as u32]);
     let line = [node[(axis + 1) % 3], node[(axis + 2) % 3]];
     let [s, t] = [a, b].map(|crossing| mesh.corners(TriId(crossing.triangle)).map(|p| p.to_array()));
-    compare_crossings(axis, line, s, t).then(b.enters.cmp(&a.enters)).then(a.triangle.cmp(&b.triangle))
+    // Of triangles in one plane the lowest lies outermost, whichever way the edge passes them.
+    let outermost_first = a.triangle.cmp(&b.triangle);
+    let by_number = if a.enters { outermost_first } else { outermost_first.reverse() };
+    compare_crossings(axis, line, s, t).then(b.enters.cmp(&a.enters)).then(by_number)
 }
 
 /// Lists the crossings of one triangle with all edges along an axis.

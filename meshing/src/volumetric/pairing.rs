@@ -102,7 +102,11 @@ fn match_around(mesh: &TriMesh, table: &EdgeTable, edge: EdgeId, opposite: &mut 
         Around { ends, apexes: Apexes { mesh }, reference: reference(mesh, table.half_edges(edge), ends) };
     let mut order = table.half_edges(edge).to_vec();
     // Where triangles lie at one angle those that end the inside come first: what touches stays apart.
-    order.sort_by(|&a, &b| around.compare(a, b).then(forward(b).cmp(&forward(a))).then(a.cmp(&b)));
+    // Of several that begin or end there the lowest is outermost, as along the edges of the grid.
+    let by_number = |a: u32, b: u32| if forward(a) { b.cmp(&a) } else { a.cmp(&b) };
+    order.sort_by(|&a, &b| {
+        around.compare(a, b).then(forward(b).cmp(&forward(a))).then_with(|| by_number(a, b))
+    });
     // Begin where the inside is least deep, so that no wedge is open across the beginning.
     let mut depth = 0i64;
     let (mut least, mut begin) = (i64::MAX, 0);

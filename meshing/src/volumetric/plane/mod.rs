@@ -3,7 +3,7 @@
 //!
 //! # Method
 //! The plane becomes one layer of cells, and the curve an upright wall through it. Where the wall meets cells and cuts edges is told by
-//! segments ([`front`]); all behind that is the volumetric mesher's. The lower side of the layer is the mesh.
+//! segments (`front`); all behind that is the volumetric mesher's. The lower side of the layer is the mesh.
 
 mod area;
 mod front;
