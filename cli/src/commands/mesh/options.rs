@@ -40,7 +40,7 @@ pub(crate) struct Args {
     /// Format of the output [default: by its extension]; needed for standard output
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(super) to: Option<VolumeFormat>,
-    /// Write hexahedra, all of them cubes [default]
+    /// Write hexahedra, all of them cubes (the default)
     #[arg(long, conflicts_with = "tet")]
     pub(super) hex: bool,
     /// Write tetrahedra, about twelve for each hexahedron
@@ -64,7 +64,7 @@ pub(crate) struct Args {
     /// Stop after so long; a mesh that is there by then is written, and the exit code is 8
     #[arg(long, value_name = "S", value_parser = parse_seconds)]
     pub(super) time_limit: Option<Duration>,
-    /// Check the mesh against the surface by other means than it was made [default]
+    /// Check the mesh against the surface by other means than it was made (the default)
     #[arg(long, conflicts_with = "no_verify")]
     pub(super) verify: bool,
     /// Leave the check out
