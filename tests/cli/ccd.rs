@@ -4,8 +4,7 @@ use crate::harness::{Bench, Ran, permissions_bind, public_queries};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::os::unix::fs::PermissionsExt;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Stdio;
 
 /// A vertex on the axis of a resting face, at these heights at the two ends of the step; `tail` ends every row.
 /// As two edges these are apart, because the face's last edge stays away from the axis.
@@ -373,15 +372,7 @@ fn ctrl_c_leaves_no_answers() {
     let mut child = bench.command(&args).stdin(Stdio::piped()).spawn().unwrap();
     let mut input = child.stdin.take().unwrap();
     input.write_all(hit("").as_bytes()).unwrap();
-    let start = Instant::now();
-    while bench.names().is_empty() {
-        assert!(start.elapsed() < Duration::from_secs(60), "the temporary file never came");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    let kill = format!("kill -INT {}", child.id());
-    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
-    let ran = Ran::of(child.wait_with_output().unwrap());
-    assert_eq!(ran.exit, Some(130), "{}", ran.err);
+    bench.interrupt_writing(child, 0);
     assert_eq!(bench.names(), [""; 0]);
 }
 

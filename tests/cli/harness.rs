@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// A tetrahedron as OBJ.
@@ -73,6 +74,20 @@ impl Bench {
             .env("TMPDIR", self.folder.path())
             .env_remove("NO_COLOR");
         command
+    }
+
+    /// Waits until a command that runs has begun to write, so that there are more than `before` files, and interrupts it.
+    pub(crate) fn interrupt_writing(&self, child: Child, before: usize) -> Ran {
+        let start = Instant::now();
+        while self.names().len() <= before {
+            assert!(start.elapsed() < Duration::from_secs(60), "the temporary file never came");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let kill = format!("kill -INT {}", child.id());
+        assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+        let ran = Ran::of(child.wait_with_output().unwrap());
+        assert_eq!(ran.exit, Some(130), "{}", ran.err);
+        ran
     }
 
     /// Runs the command with words separated by spaces.

@@ -1,10 +1,8 @@
 //! `welter isosurface`.
 
-use crate::harness::{Bench, Ran};
+use crate::harness::Bench;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::time::{Duration, Instant};
 
 const BALL: &str = "[grid]\ncells = 16\n[field]\nkind = \"ball\"\nradius = 1\n";
 
@@ -216,14 +214,6 @@ fn ctrl_c_ends_it_without_a_trace() {
     let words = "welter ".repeat(200);
     bench.file("long.toml", format!("[grid]\ncells = 40\n[field]\nkind = \"text\"\nwords = \"{words}\"\n"));
     let child = bench.command(&["isosurface", "long.toml", "-o", "a.ply"]).spawn().unwrap();
-    let start = Instant::now();
-    while bench.names().len() < 2 {
-        assert!(start.elapsed() < Duration::from_secs(60), "the temporary file never came");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    let kill = format!("kill -INT {}", child.id());
-    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
-    let ran = Ran::of(child.wait_with_output().unwrap());
-    assert_eq!(ran.exit, Some(130), "{}", ran.err);
+    bench.interrupt_writing(child, 1);
     assert_eq!(bench.names(), ["long.toml"]);
 }

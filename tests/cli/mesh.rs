@@ -1,11 +1,9 @@
 //! `welter mesh`.
 
-use crate::harness::{Bench, Ran, TETRAHEDRON};
+use crate::harness::{Bench, TETRAHEDRON};
 use serde_json::{Value, json};
 use std::io::Read;
 use std::path::Path;
-use std::process::Command;
-use std::time::{Duration, Instant};
 use welter_meshing::DVec3;
 use welter_meshing::io::{FieldValues, Limits, VolumeData, read_medit, read_msh, read_vtu};
 
@@ -391,15 +389,7 @@ fn ctrl_c_ends_it_without_a_trace() {
     let bench = Bench::new();
     bench.run("shape ring-overlap -o a.ply").ok();
     let child = bench.command(&["mesh", "a.ply", "-o", "a.vtu", "-r", "150"]).spawn().unwrap();
-    let start = Instant::now();
-    while bench.names().len() < 2 {
-        assert!(start.elapsed() < Duration::from_secs(60), "the temporary file never came");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    let kill = format!("kill -INT {}", child.id());
-    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
-    let ran = Ran::of(child.wait_with_output().unwrap());
-    assert_eq!(ran.exit, Some(130), "{}", ran.err);
+    let ran = bench.interrupt_writing(child, 1);
     assert!(ran.err.contains("error[W0130]: interrupted"), "{}", ran.err);
     assert_eq!(bench.names(), ["a.ply"]);
 }
