@@ -7,7 +7,7 @@
 //!   inside, each as another one, and the copy left over is that of the patch's class;
 //! * a patch without a class is a *seam*: both regions have equally many copies, all of which go on;
 //! * a *link* says of a patch that the copy of one class outside goes on as the copy of another class inside: a sheet of the
-//!   surface is on both sides of the patch;
+//!   surface is on both sides of the patch; a copy that has come through another patch stands for a class as well;
 //! * a *square* says that going on through two patches, one after the other, is the same as through two others: where two sheets cross
 //!   it does not matter which is passed first.
 //!
@@ -44,14 +44,23 @@ pub(super) struct Patch {
     pub(super) class: u32,
 }
 
-/// Through a patch the copy of one class goes on as that of another.
+/// A copy to be named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Unknown {
+    /// That of a class.
+    Class(u32),
+    /// That as which a copy before a patch goes on.
+    Through(u32, u32),
+}
+
+/// Through a patch one copy goes on as another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Link {
     pub(super) patch: u32,
-    /// A class of the outer region.
-    pub(super) outer: u32,
-    /// A class of the inner region.
-    pub(super) inner: u32,
+    /// Of the outer region.
+    pub(super) outer: Unknown,
+    /// Of the inner region.
+    pub(super) inner: Unknown,
 }
 
 /// Going on through the first two patches is the same as through the other two.
@@ -65,6 +74,8 @@ pub(super) struct Problem {
     pub(super) copies: Vec<u32>,
     /// The region of each class.
     pub(super) classes: Vec<u32>,
+    /// Classes that are what a copy of a region goes on as: the class, the region and the copy; sorted. They ask the same for each copy of a region.
+    pub(super) origins: Vec<[u32; 3]>,
     pub(super) patches: Vec<Patch>,
     pub(super) links: Vec<Link>,
     pub(super) squares: Vec<Square>,
@@ -105,6 +116,45 @@ enum Constraint {
     Square(usize),
 }
 
+/// Constraints to look at again, each once.
+struct Queue {
+    list: Vec<Constraint>,
+    waits: [Vec<bool>; 3],
+}
+
+impl Queue {
+    fn new(problem: &Problem) -> Self {
+        let counts = [problem.patches.len(), problem.links.len(), problem.squares.len()];
+        Self { list: Vec::new(), waits: counts.map(|count| vec![false; count]) }
+    }
+
+    fn waits(&mut self, constraint: Constraint) -> &mut bool {
+        match constraint {
+            Constraint::Patch(number) => &mut self.waits[0][number],
+            Constraint::Link(number) => &mut self.waits[1][number],
+            Constraint::Square(number) => &mut self.waits[2][number],
+        }
+    }
+
+    fn extend(&mut self, constraints: impl IntoIterator<Item = Constraint>) {
+        for constraint in constraints {
+            if !std::mem::replace(self.waits(constraint), true) {
+                self.list.push(constraint);
+            }
+        }
+    }
+
+    fn pop(&mut self) -> Option<Constraint> {
+        let constraint = self.list.pop()?;
+        *self.waits(constraint) = false;
+        Some(constraint)
+    }
+
+    fn clear(&mut self) {
+        while self.pop().is_some() {}
+    }
+}
+
 /// A guess, and what to go back to.
 struct Guess {
     variable: usize,
@@ -128,7 +178,7 @@ struct Search<'a> {
     named: Vec<u128>,
     watchers: Vec<Vec<Constraint>>,
     trail: Vec<Change>,
-    queue: Vec<Constraint>,
+    queue: Queue,
     guesses: Vec<Guess>,
     /// Guesses taken back so far.
     failures: usize,
@@ -177,7 +227,8 @@ impl<'a> Search<'a> {
             let patch = link.patch as usize;
             let copies = problem.copies[problem.patches[patch].outer as usize] as usize;
             let through = starts[patch]..starts[patch] + copies;
-            for variable in through.chain([link.outer as usize, link.inner as usize]) {
+            let ends = [link.outer, link.inner].map(|unknown| variable(unknown, &starts));
+            for variable in through.chain(ends) {
                 watchers[variable].push(Constraint::Link(number));
             }
         }
@@ -198,7 +249,7 @@ impl<'a> Search<'a> {
             named,
             watchers,
             trail: Vec::new(),
-            queue: Vec::new(),
+            queue: Queue::new(problem),
             guesses: Vec::new(),
             failures: 0,
         };
@@ -230,6 +281,11 @@ impl<'a> Search<'a> {
         self.note(self.region(variable), domain);
         if let Some((outer, copy)) = self.source(variable) {
             self.note(outer, 1 << copy);
+        } else if let Ok(place) =
+            self.problem.origins.binary_search_by_key(&variable, |&[class, ..]| class as usize)
+        {
+            let [_, region, copy] = self.problem.origins[place];
+            self.note(region as usize, 1 << copy);
         }
     }
 
@@ -313,7 +369,7 @@ impl<'a> Search<'a> {
     /// The copy of a class outside goes on as that of a class inside.
     fn link(&mut self, number: usize) -> Result<(), Contradiction> {
         let Link { patch, outer, inner } = self.problem.links[number];
-        let (outer, inner) = (outer as usize, inner as usize);
+        let [outer, inner] = [outer, inner].map(|unknown| variable(unknown, &self.starts));
         let copies = self.problem.copies[self.problem.patches[patch as usize].outer as usize] as usize;
         let start = self.starts[patch as usize];
         let (mut from, mut onto) = (0, 0);
@@ -454,6 +510,14 @@ impl<'a> Search<'a> {
     }
 }
 
+/// The number of the variable for an unknown copy.
+fn variable(unknown: Unknown, starts: &[usize]) -> usize {
+    match unknown {
+        Unknown::Class(class) => class as usize,
+        Unknown::Through(patch, copy) => starts[patch as usize] + copy as usize,
+    }
+}
+
 /// The first `count` copies.
 fn all(count: u32) -> u128 {
     if count >= 128 { u128::MAX } else { (1 << count) - 1 }
@@ -480,18 +544,47 @@ mod tests {
             classes: vec![0, 1, 2, 2],
             patches: vec![Patch { outer: 0, inner: 2, class: 3 }, Patch { outer: 1, inner: 2, class: 2 }],
             links,
-            squares: vec![],
+            ..Problem::default()
         }
     }
 
     #[test]
     fn overlapping_bodies_stay_apart() {
-        let problem = overlap(vec![Link { patch: 0, outer: 0, inner: 2 }]);
+        let problem = overlap(vec![Link { patch: 0, outer: Unknown::Class(0), inner: Unknown::Class(2) }]);
         let solution = problem.solve().unwrap();
         assert_ne!(solution.of_class[2], solution.of_class[3]);
         assert_eq!(solution.through(0, 0), solution.of_class[2]);
         assert_eq!(solution.through(1, 0), solution.of_class[3]);
         assert!(!solution.ambiguous);
+    }
+
+    #[test]
+    fn a_copy_that_went_through_one_patch_is_followed_through_the_next() {
+        // Three bodies; from A into A and B, on into all, and from there along a second way round.
+        let problem = |links| Problem {
+            copies: vec![1, 2, 2, 3],
+            classes: vec![1, 2, 3, 3, 3],
+            patches: vec![
+                Patch { outer: 0, inner: 1, class: 0 },
+                Patch { outer: 0, inner: 2, class: 1 },
+                Patch { outer: 1, inner: 3, class: 2 },
+                Patch { outer: 2, inner: 3, class: 3 },
+            ],
+            links,
+            origins: vec![[4, 0, 0]],
+            ..Problem::default()
+        };
+        // A's only copy is class 4 in the end, whichever way.
+        let way = |first, second| Link {
+            patch: second,
+            outer: Unknown::Through(first, 0),
+            inner: Unknown::Class(4),
+        };
+        let solution = problem(vec![way(0, 2), way(1, 3)]).solve().unwrap();
+        let along = |first, second| solution.through(second as usize, solution.through(first as usize, 0));
+        assert_eq!(along(0, 2), solution.of_class[4]);
+        assert_eq!(along(1, 3), solution.of_class[4]);
+        assert!(problem(vec![]).solve().unwrap().ambiguous);
     }
 
     #[test]
@@ -502,7 +595,10 @@ mod tests {
     #[test]
     fn what_cannot_be_is_refused() {
         // A's surface goes on as B's, which begins at the patch itself.
-        let contradiction = overlap(vec![Link { patch: 0, outer: 0, inner: 3 }]).solve().unwrap_err();
+        let contradiction =
+            overlap(vec![Link { patch: 0, outer: Unknown::Class(0), inner: Unknown::Class(3) }])
+                .solve()
+                .unwrap_err();
         assert_eq!(contradiction, Contradiction { region: 2, given_up: false });
     }
 
@@ -515,6 +611,7 @@ mod tests {
             patches: (0..3).map(|n| Patch { outer: n, inner: n + 1, class: n + 1 }).collect(),
             links: vec![],
             squares: vec![],
+            origins: vec![],
         };
         let solution = problem.solve().unwrap();
         assert!(!solution.ambiguous);
@@ -581,12 +678,12 @@ mod tests {
                         (of(patches[patch as usize].outer), of(patches[patch as usize].inner));
                     Link {
                         patch,
-                        outer: outer[random(outer.len() as u32) as usize],
-                        inner: inner[random(inner.len() as u32) as usize],
+                        outer: Unknown::Class(outer[random(outer.len() as u32) as usize]),
+                        inner: Unknown::Class(inner[random(inner.len() as u32) as usize]),
                     }
                 })
                 .collect();
-            let problem = Problem { copies, classes, patches, links, squares: vec![] };
+            let problem = Problem { copies, classes, patches, links, squares: vec![], origins: vec![] };
             let found = problem.solve();
             assert_eq!(found.is_ok(), has_solution(&problem), "{problem:?}");
             solved += usize::from(found.is_ok());

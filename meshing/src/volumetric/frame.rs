@@ -70,8 +70,10 @@ pub(super) struct Frame {
     parts: Vec<u32>,
     /// Pairs of places that are on the same side of everything, in different regions or not.
     alike: Vec<[u32; 2]>,
-    /// For each place that stands for a part, its side of each hexahedron of the extension.
+    /// For each place that stands for others, its side of each hexahedron of the extension.
     sides: Vec<i16>,
+    /// The place that stands for each; none if there are fewer than three.
+    stands: Vec<u32>,
 }
 
 impl Frame {
@@ -172,10 +174,12 @@ impl Frame {
     /// Finds parts that are on the same side of everything; `sets` are places that edges connect.
     fn find_alike(&mut self, hexahedra: std::ops::Range<u32>, sets: &mut UnionFind) {
         let places = self.pieces.len() as u32;
+        self.stands.clear();
         let parts: Vec<u32> = (0..places).filter(|&place| sets.root(place) == place).collect();
         if parts.len() < 3 {
             return;
         }
+        self.stands.extend((0..places).map(|place| sets.root(place)));
         let count = hexahedra.len();
         self.sides.clear();
         self.sides.resize(places as usize * count, 0);
@@ -206,6 +210,13 @@ impl Frame {
     /// Pairs of places that are alike though no edge connects them.
     pub(super) fn alike(&self) -> &[[u32; 2]] {
         &self.alike
+    }
+
+    /// On which side of each hexahedron of the extension a part is, of which there are `count`; only differences have a meaning. None if
+    /// there are too few parts for any two to be alike.
+    pub(super) fn sides(&self, part: u32, count: usize) -> Option<&[i16]> {
+        let place = *self.stands.get(part as usize)? as usize;
+        Some(&self.sides[place * count..(place + 1) * count])
     }
 
     /// The crossings of all edges.

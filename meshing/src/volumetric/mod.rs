@@ -7,6 +7,7 @@ mod characteristic;
 mod coarsen;
 mod coarsened;
 mod complex;
+mod continued;
 mod copies;
 mod crossings;
 mod edges;

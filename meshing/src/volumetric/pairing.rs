@@ -5,10 +5,12 @@
 //! with more than two triangles fall apart into several. Its components and their Euler characteristics.
 //!
 //! # Method
-//! Of an edge with two triangles these are a pair. Where more meet, as where two cubes have an edge in common, they are
-//! taken in their order around the edge, which exact orientations tell. Around the edge's direction by the right-hand rule the inside
-//! begins at a triangle that runs backward along the edge and ends at one that runs forward: these match like parentheses, the
-//! innermost first. So each wedge of solid keeps its own two triangles, and what met along an edge only comes apart.
+//! Of an edge with two triangles these are a pair. Where more meet, as where two cubes have an edge in common, those are paired
+//! first that other edges already make one piece of surface, if as many of them run one way as the other: bodies that have an edge in
+//! common stay bodies of their own, even if they overlap there. Then what is left. Both times triangles are taken in their order around the
+//! edge, which exact orientations tell. Around the edge's direction by the right-hand rule the inside begins at a triangle that runs
+//! backward along the edge and ends at one that runs forward: these match like parentheses, the innermost first. So each wedge of
+//! solid keeps its own two triangles, and what met along an edge only comes apart.
 //!
 //! Complexity: O(n log n).
 
@@ -34,14 +36,20 @@ impl Pairing {
     pub(crate) fn new(mesh: &TriMesh) -> Self {
         let table = EdgeTable::new(mesh);
         let mut opposite = vec![0; 3 * mesh.triangles().len()];
+        let mut pieces = UnionFind::new(mesh.triangles().len());
+        let mut shared = Vec::new();
         for edge in table.ids() {
             match *table.half_edges(edge) {
                 [a, b] => {
                     opposite[a as usize] = b;
                     opposite[b as usize] = a;
+                    pieces.unite(a / 3, b / 3);
                 }
-                _ => match_around(mesh, &table, edge, &mut opposite),
+                _ => shared.push(edge),
             }
+        }
+        for edge in shared {
+            match_around(mesh, &table, edge, &mut pieces, &mut opposite);
         }
         let mut pairing = Self { opposite, component_of: Vec::new(), characteristics: Vec::new() };
         pairing.count(mesh);
@@ -93,8 +101,14 @@ impl Pairing {
     }
 }
 
-/// Pairs the half-edges of an edge where more than two triangles meet.
-fn match_around(mesh: &TriMesh, table: &EdgeTable, edge: EdgeId, opposite: &mut [u32]) {
+/// Pairs the half-edges of an edge where more than two triangles meet: those of one piece of surface first.
+fn match_around(
+    mesh: &TriMesh,
+    table: &EdgeTable,
+    edge: EdgeId,
+    pieces: &mut UnionFind,
+    opposite: &mut [u32],
+) {
     let [low, high] = table.edges[edge.index()];
     let ends = [low, high].map(|v| mesh.positions()[v.index()]);
     let forward = |h: u32| edges::tail(mesh, h) == low;
@@ -107,6 +121,27 @@ fn match_around(mesh: &TriMesh, table: &EdgeTable, edge: EdgeId, opposite: &mut 
     order.sort_by(|&a, &b| {
         around.compare(a, b).then(forward(b).cmp(&forward(a))).then_with(|| by_number(a, b))
     });
+    // Stable, so that each piece keeps the order around the edge.
+    let mut by_piece = order.clone();
+    by_piece.sort_by_key(|&h| pieces.root(h / 3));
+    let mut loose = Vec::new();
+    for piece in by_piece.chunk_by(|&a, &b| pieces.root(a / 3) == pieces.root(b / 3)) {
+        if 2 * piece.iter().filter(|&&h| forward(h)).count() == piece.len() {
+            match_parentheses(piece, forward, opposite);
+        } else {
+            loose.extend_from_slice(piece);
+        }
+    }
+    loose.sort_unstable();
+    order.retain(|h| loose.binary_search(h).is_ok());
+    match_parentheses(&order, forward, opposite);
+    for &h in table.half_edges(edge) {
+        pieces.unite(h / 3, opposite[h as usize] / 3);
+    }
+}
+
+/// Pairs half-edges in their order around an edge, as many forward as backward, so that each wedge of solid has its own two.
+fn match_parentheses(order: &[u32], forward: impl Fn(u32) -> bool, opposite: &mut [u32]) {
     // Begin where the inside is least deep, so that no wedge is open across the beginning.
     let mut depth = 0i64;
     let (mut least, mut begin) = (i64::MAX, 0);
@@ -116,9 +151,8 @@ fn match_around(mesh: &TriMesh, table: &EdgeTable, edge: EdgeId, opposite: &mut 
         }
         depth += if forward(h) { -1 } else { 1 };
     }
-    order.rotate_left(begin);
     let mut open = Vec::new();
-    for h in order {
+    for &h in order[begin..].iter().chain(&order[..begin]) {
         if forward(h) {
             let start: u32 =
                 open.pop().expect("as many run forward as backward, and the depth is never negative");
@@ -203,15 +237,20 @@ mod tests {
 
     /// Two tetrahedra on either side of the edge 0-1; with `turned` the second one's triangles come first.
     fn wedges(turned: bool) -> TriMesh {
-        let positions =
-            [[0., 0., 0.], [0., 0., 1.], [1., 0., 0.], [1., 1., 0.], [-1., 0., 0.], [-1., -1., 0.]];
+        tetrahedra_at_an_edge([[1., 0.], [1., 1.], [-1., 0.], [-1., -1.]], turned)
+    }
+
+    /// Two tetrahedra with the edge 0-1 in common, each between two directions across it.
+    fn tetrahedra_at_an_edge(directions: [[f64; 2]; 4], turned: bool) -> TriMesh {
+        let apexes = directions.map(|[x, y]| [x, y, 0.0]);
+        let positions = [[0., 0., 0.], [0., 0., 1.]].into_iter().chain(apexes);
         let tetrahedron = |p: u32, q: u32| vec![[0, 1, p], [1, 0, q], [0, p, q], [1, q, p]];
         let (mut first, mut second) = (tetrahedron(3, 2), tetrahedron(5, 4));
         if turned {
             std::mem::swap(&mut first, &mut second);
         }
         first.extend(second);
-        let positions = positions.map(DVec3::from_array).to_vec();
+        let positions = positions.map(DVec3::from_array).collect();
         TriMesh::new(TriangleSoup { positions, triangles: first, ..TriangleSoup::default() }).unwrap()
     }
 
@@ -221,6 +260,22 @@ mod tests {
             let pairing = Pairing::new(&wedges(turned));
             assert_eq!(pairing.characteristics(), [2, 2]);
             assert_eq!(pairing.component_of(), [0, 0, 0, 0, 1, 1, 1, 1]);
+        }
+    }
+
+    #[test]
+    fn wedges_that_overlap_at_an_edge_stay_bodies_of_their_own() {
+        // Crossing, one within the other, and with a side in common.
+        for directions in [
+            [[1., 0.], [0., 1.], [1., 1.], [-1., 1.]],
+            [[1., 0.], [-1., 1.], [1., 1.], [0., 1.]],
+            [[1., 0.], [1., 1.], [1., 1.], [0., 1.]],
+        ] {
+            for turned in [false, true] {
+                let pairing = Pairing::new(&tetrahedra_at_an_edge(directions, turned));
+                assert_eq!(pairing.characteristics(), [2, 2], "{directions:?}");
+                assert_eq!(pairing.component_of(), [0, 0, 0, 0, 1, 1, 1, 1], "{directions:?}");
+            }
         }
     }
 }

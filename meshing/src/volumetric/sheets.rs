@@ -8,7 +8,8 @@
 //!
 //! Complexity: near linear in the crossings, and what the search takes.
 
-use super::copies::{Contradiction, Link, MAX_COPIES, Patch, Problem, SEAM, Solution, Square};
+use super::continued::{self, CellStep, Continued, Continues, Copy, Hidden, Step};
+use super::copies::{Contradiction, Link, MAX_COPIES, Patch, Problem, SEAM, Solution, Square, Unknown};
 use super::error::Trouble;
 use super::frame::{CellCrossing, Cut, Frame, in_all_cells};
 use super::pieces::Regions;
@@ -33,10 +34,14 @@ struct Facts {
     same_class: Vec<[u32; 2]>,
     /// Crossings of one patch.
     same_patch: Vec<[u32; 2]>,
-    /// A crossing of the patch, of the class outside and of the class inside.
-    links: Vec<[u32; 3]>,
-    /// A seam, and a crossing of the class on either side.
-    seam_links: Vec<[u32; 3]>,
+    /// How sheets go on.
+    links: Vec<Continues>,
+    /// The region of each copy that is asked for.
+    asked: Vec<u32>,
+    /// Surfaces that no edge meets; their parts are regions here.
+    hidden: Vec<Hidden>,
+    /// Of the copies that are asked for those which are what a copy of a region goes on as: its number, the region and the copy.
+    origins: Vec<[u32; 3]>,
     /// Crossings of the patches of a square.
     squares: Vec<[u32; 4]>,
     /// A crossing of a patch, the seam behind it, the seam before it, and a crossing beyond.
@@ -53,7 +58,9 @@ impl Sheets {
         }
         // Where at most one sheet lies there is nothing to tell apart.
         let deep = regions.pieces.deep_cells(cut.grid);
-        let add = |facts: &mut Facts, frame: &Frame, _: [u32; 3], _: usize| facts.add(frame, regions);
+        let add = |facts: &mut Facts, frame: &Frame, _: [u32; 3], number: usize| {
+            facts.add(frame, cut.extension.hexahedra(number), regions);
+        };
         let facts = in_all_cells(cut, &regions.pieces, "copies of regions", monitor, |row| deep[row], add)?;
         let count = cut.crossings.axes.iter().map(|rows| rows.items().len()).sum();
         let (mut classes, mut patches) = (UnionFind::new(count), UnionFind::new(count));
@@ -90,25 +97,7 @@ impl Sheets {
             }
             sheets.patch_of[id as usize] = sheets.patch_of[patch];
         }
-        let mut alone = vec![NONE; problem.copies.len()];
-        for &[id, outer, inner] in facts.iter().flat_map(|facts| &facts.links) {
-            let patch = sheets.patch_of[id as usize];
-            let before = problem.patches[patch as usize].outer as usize;
-            let outer = if problem.copies[before] > 1 {
-                sheets.class_of[outer as usize]
-            } else {
-                if alone[before] == NONE {
-                    alone[before] = problem.classes.len() as u32;
-                    problem.classes.push(before as u32);
-                }
-                alone[before]
-            };
-            problem.links.push(Link { patch, outer, inner: sheets.class_of[inner as usize] });
-        }
-        for &[seam, outer, inner] in facts.iter().flat_map(|facts| &facts.seam_links) {
-            let [outer, inner] = [outer, inner].map(|crossing| sheets.class_of[crossing as usize]);
-            problem.links.push(Link { patch: seam, outer, inner });
-        }
+        sheets.add_links(&mut problem, &facts);
         for squares in facts.iter().map(|facts| &facts.squares) {
             problem
                 .squares
@@ -127,6 +116,54 @@ impl Sheets {
             .solve()
             .map_err(|Contradiction { region, given_up }| Trouble::Contradiction { region, given_up })?;
         Ok(sheets)
+    }
+
+    /// Adds how sheets go on, with a class for each copy that is asked for and one for each region of one copy.
+    fn add_links(&self, problem: &mut Problem, facts: &[Facts]) {
+        let mut alone = vec![NONE; problem.copies.len()];
+        for facts in facts {
+            let first = problem.classes.len() as u32;
+            problem.classes.extend(&facts.asked);
+            problem
+                .origins
+                .extend(facts.origins.iter().map(|&[asked, region, copy]| [first + asked, region, copy]));
+            let first_hidden = problem.patches.len() as u32;
+            // Their classes are those of the same cells, and these have several copies.
+            problem.patches.extend(facts.hidden.iter().map(|&Hidden { parts: [outer, inner], class }| {
+                let class = match class {
+                    Copy::Asked(n) => first + n,
+                    Copy::Behind(id) => self.class_of[id as usize],
+                    Copy::Onward(..) => unreachable!("a sheet begins behind surface"),
+                };
+                Patch { outer, inner, class }
+            }));
+            for &Continues { step, outer, inner } in &facts.links {
+                let patch_of = |step| match step {
+                    Step::Crossing(id) => self.patch_of[id as usize],
+                    Step::Seam(seam) => seam,
+                    Step::Hidden(n) => first_hidden + n,
+                };
+                let patch = patch_of(step);
+                let Patch { outer: before, inner: behind, .. } = problem.patches[patch as usize];
+                let mut unknown = |copy, region: u32| match copy {
+                    Copy::Asked(n) => Unknown::Class(first + n),
+                    Copy::Onward(step, copy) => Unknown::Through(patch_of(step), copy),
+                    Copy::Behind(id) if problem.copies[region as usize] > 1 => {
+                        Unknown::Class(self.class_of[id as usize])
+                    }
+                    Copy::Behind(_) => {
+                        let class = &mut alone[region as usize];
+                        if *class == NONE {
+                            *class = problem.classes.len() as u32;
+                            problem.classes.push(region);
+                        }
+                        Unknown::Class(*class)
+                    }
+                };
+                let (outer, inner) = (unknown(outer, before), unknown(inner, behind));
+                problem.links.push(Link { patch, outer, inner });
+            }
+        }
     }
 
     /// The copy behind a crossing.
@@ -155,16 +192,16 @@ impl Sheets {
 
 impl Facts {
     /// Adds what one cell says.
-    fn add(&mut self, frame: &Frame, regions: &Regions<'_>) {
+    fn add(&mut self, frame: &Frame, extension: std::ops::Range<u32>, regions: &Regions<'_>) {
         let winding = |part: u32| regions.pieces.winding(frame.piece(part));
+        let region = |part: u32| regions.of(frame.piece(part));
         let list = frame.crossings();
         let mut patches: Vec<CellCrossing> = Vec::new();
         for (n, a) in list.iter().enumerate() {
             if winding(a.inner) < 2 {
                 continue;
             }
-            let [outer, inner] = [a.outer, a.inner].map(|part| regions.of(frame.piece(part)));
-            self.crossings.push([a.id, outer, inner]);
+            self.crossings.push([a.id, region(a.outer), region(a.inner)]);
             let same = |b: &&CellCrossing| b.hexahedron == a.hexahedron && b.inner == a.inner;
             if let Some(b) = list[..n].iter().find(same) {
                 self.same_class.push([b.id, a.id]);
@@ -173,21 +210,93 @@ impl Facts {
                 self.same_patch.push([b.id, a.id]);
                 continue;
             }
-            self.link(list, a);
             patches.push(*a);
+        }
+        let hexahedra = distinct(patches.iter().map(|patch| patch.hexahedron));
+        if hexahedra.len() > 2 || !frame.seams().is_empty() {
+            self.follow_all(frame, &patches, extension, winding, region);
+        } else {
+            patches.iter().for_each(|patch| self.link(list, patch));
         }
         // Where one sheet lies before both there is one way only.
         patches.retain(|a| winding(a.outer) > 1);
         self.squares(&patches);
         self.seam_squares(&patches, frame);
-        for seam in frame.seams() {
-            for a in list.iter().filter(|a| a.inner == seam.parts[0]) {
-                let same = |b: &&CellCrossing| b.inner == seam.parts[1] && b.hexahedron == a.hexahedron;
-                if let Some(b) = list.iter().find(same) {
-                    self.seam_links.push([seam.id, a.id, b.id]);
-                }
+    }
+
+    /// Where more than two sheets meet: follows each as far as it goes.
+    fn follow_all(
+        &mut self,
+        frame: &Frame,
+        patches: &[CellCrossing],
+        extension: std::ops::Range<u32>,
+        winding: impl Fn(u32) -> i32,
+        region: impl Fn(u32) -> u32,
+    ) {
+        let through = patches.iter().map(|patch| CellStep {
+            step: Step::Crossing(patch.id),
+            parts: [patch.outer, patch.inner],
+            hexahedron: Some(patch.hexahedron),
+        });
+        let over = frame.seams().iter().map(|seam| CellStep {
+            step: Step::Seam(seam.id),
+            parts: seam.parts,
+            hexahedron: None,
+        });
+        let mut steps: Vec<CellStep> = through.chain(over).collect();
+        let mut cell = Continued::default();
+        if frame.seams().is_empty() {
+            let deep = distinct(steps.iter().flat_map(|step| step.parts));
+            let count = extension.len();
+            cell.add_hidden(&mut steps, &deep, extension.start, |part| frame.sides(part, count));
+        }
+        let steps = continued::meeting(steps, frame.places());
+        if steps.is_empty() {
+            return;
+        }
+        let list = frame.crossings();
+        for hexahedron in distinct(list.iter().map(|crossing| crossing.hexahedron)) {
+            let own = list.iter().filter(|crossing| crossing.hexahedron == hexahedron);
+            let behind = own.map(|crossing| (crossing.inner, Copy::Behind(crossing.id)));
+            cell.follow(&steps, Some(hexahedron), frame.places(), behind);
+        }
+        // Copies that are in the cell from the outset.
+        let first = self.asked.len() as u32;
+        for part in distinct(steps.iter().map(|step| step.parts[0])) {
+            let hidden = |step: &CellStep| step.parts[1] == part && matches!(step.step, Step::Hidden(_));
+            if list.iter().any(|crossing| crossing.inner == part) || steps.iter().any(hidden) {
+                continue;
+            }
+            for copy in 0..winding(part).max(0) as u32 {
+                let before = cell.asked.len() as u32;
+                let from = steps.iter().filter(|step| step.parts[0] == part);
+                let onward = from.map(|step| (step.parts[1], Copy::Onward(step.step, copy)));
+                cell.follow(&steps, None, frame.places(), onward);
+                let asked = before..cell.asked.len() as u32;
+                self.origins.extend(asked.map(|asked| [first + asked, region(part), copy]));
             }
         }
+        let hidden = self.hidden.len() as u32;
+        let step_of = |step| match step {
+            Step::Hidden(n) => Step::Hidden(hidden + n),
+            other => other,
+        };
+        let shifted = |copy| match copy {
+            Copy::Asked(n) => Copy::Asked(first + n),
+            Copy::Onward(step, copy) => Copy::Onward(step_of(step), copy),
+            other => other,
+        };
+        self.asked.extend(cell.asked.iter().map(|&part| region(part)));
+        self.links.extend(cell.found.iter().map(|&Continues { step, outer, inner }| Continues {
+            step: step_of(step),
+            outer: shifted(outer),
+            inner: shifted(inner),
+        }));
+        self.hidden.extend(
+            cell.hidden
+                .iter()
+                .map(|&Hidden { parts, class }| Hidden { parts: parts.map(&region), class: shifted(class) }),
+        );
     }
 
     /// Where two sheets cross either may be passed first.
@@ -226,8 +335,17 @@ impl Facts {
         for outer in list.iter().filter(|c| c.inner == patch.outer && c.hexahedron != patch.hexahedron) {
             let behind = |c: &&CellCrossing| c.inner == patch.inner && c.hexahedron == outer.hexahedron;
             if let Some(inner) = list.iter().find(behind) {
-                self.links.push([patch.id, outer.id, inner.id]);
+                let [outer, inner] = [outer, inner].map(|crossing| Copy::Behind(crossing.id));
+                self.links.push(Continues { step: Step::Crossing(patch.id), outer, inner });
             }
         }
     }
+}
+
+/// Each of some numbers once, sorted.
+fn distinct(numbers: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut all: Vec<u32> = numbers.collect();
+    all.sort_unstable();
+    all.dedup();
+    all
 }

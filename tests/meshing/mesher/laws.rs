@@ -96,6 +96,23 @@ fn some_bodies(most: u64) -> Vec<(u64, ClosedOrientedMesh, VolumeMesh)> {
 }
 
 #[test]
+fn bodies_together_are_bodies_beside_each_other() {
+    let bodies = some_bodies(count(6));
+    for pair in bodies.windows(2) {
+        for shift in [DVec3::ZERO, DVec3::splat(3.0 * SPACING), DVec3::new(0.5, -1.5, 2.5) * SPACING] {
+            let second = moved(&pair[1].1, |p| p + shift, false);
+            union_law(&pair[0].1, &second, &format!("seeds {} and {}, {shift}", pair[0].0, pair[1].0));
+        }
+        let copy = pair[0].1.clone();
+        union_law(&pair[0].1, &copy, &format!("seed {}, twice", pair[0].0));
+        let shifted = moved(&copy, |p| p + DVec3::X * SPACING, false);
+        union_law(&pair[0].1, &shifted, &format!("seed {}, one cell on", pair[0].0));
+        let half = moved(&copy, |p| p + DVec3::Y * (SPACING / 2.0), false);
+        union_law(&pair[0].1, &half, &format!("seed {}, half a cell on", pair[0].0));
+    }
+}
+
+#[test]
 fn boxes_together_are_boxes_beside_each_other() {
     let cube = |min: DVec3, max: DVec3| box_(&Box_ { min, max, edge_length: 0.6 }).unwrap();
     let first = cube(DVec3::ZERO, DVec3::ONE);
