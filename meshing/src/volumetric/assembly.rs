@@ -241,11 +241,11 @@ impl<'a> Layout<'a> {
                 begin = end;
             }
         });
-        for (node, &corner) in outside.iter_mut().zip(&self.outside.first) {
+        outside.par_iter_mut().zip(&self.outside.first).with_min_len(1024).for_each(|(node, &corner)| {
             let number = self.cells.cell_of(corner as usize / 8);
             let cell = self.index_of(number);
             *node = self.cut.grid.node_index(corner_node(cell, corner as usize % 8)) as u64;
-        }
+        });
         nodes
     }
 

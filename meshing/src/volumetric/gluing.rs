@@ -12,11 +12,14 @@ use rayon::prelude::*;
 use super::cells::{CellHexahedra, OUTSIDE};
 use super::error::Trouble;
 use super::frame::Cut;
-use crate::surface::topology::union_find::UnionFind;
+use super::shared_union_find::SharedUnionFind;
 use crate::{Cancelled, Monitor};
 
 /// Rows that a thread takes at a time.
 const ROWS: usize = 64;
+
+/// Corners that a thread takes at a time.
+const CORNERS: usize = 1 << 14;
 
 /// What a corner outside is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,8 +42,6 @@ pub(super) struct Outside {
 /// What the sides between some cells and the next say.
 #[derive(Default)]
 struct Sides {
-    /// Corners outside that are one.
-    same: Vec<[u32; 2]>,
     /// Corners outside that are a copy of their node.
     copies: Vec<(u32, u8)>,
     /// The number of a cell where two different copies would be one.
@@ -49,41 +50,44 @@ struct Sides {
 
 impl Outside {
     pub(super) fn new(cut: &Cut<'_>, cells: &CellHexahedra, monitor: &Monitor<'_>) -> Result<Self, Trouble> {
-        let sides = sides(cut, cells, monitor)?;
-        let mut sets = UnionFind::new(8 * cells.hexahedra.len());
-        for part in &sides {
+        let sets = SharedUnionFind::new(8 * cells.hexahedra.len());
+        let mut corners = vec![Corner::Outside(u32::MAX); 8 * cells.hexahedra.len()];
+        for part in sides(cut, cells, &sets, monitor)? {
             if let Some(number) = part.torn {
                 return Err(trouble(cut, number));
             }
-            part.same.iter().for_each(|&[a, b]| sets.unite(a, b));
-        }
-        let mut corners = vec![Corner::Outside(u32::MAX); 8 * cells.hexahedra.len()];
-        for &(corner, copy) in sides.iter().flat_map(|part| &part.copies) {
-            let root = sets.root(corner) as usize;
-            if !matches!(corners[root], Corner::Outside(_)) && corners[root] != Corner::Copy(copy) {
-                let hexahedron = corner / 8;
-                let number = cells.cell_of(hexahedron as usize);
-                return Err(trouble(cut, number));
-            }
-            corners[root] = Corner::Copy(copy);
-        }
-        let (mut count, mut first) = (0, Vec::new());
-        for corner in 0..corners.len() as u32 {
-            if cells.hexahedra[corner as usize / 8].corners[corner as usize % 8] != OUTSIDE {
-                continue;
-            }
-            let root = sets.root(corner);
-            if root == corner {
-                if let Corner::Outside(number) = &mut corners[corner as usize] {
-                    *number = count;
-                    count += 1;
-                    first.push(corner);
+            for (corner, copy) in part.copies {
+                let of_root = &mut corners[sets.root(corner) as usize];
+                if !matches!(of_root, Corner::Outside(_)) && *of_root != Corner::Copy(copy) {
+                    return Err(trouble(cut, cells.cell_of(corner as usize / 8)));
                 }
-            } else {
-                corners[corner as usize] = corners[root as usize];
+                *of_root = Corner::Copy(copy);
             }
         }
-        Ok(Self { corners, count, first })
+        // Numbers for what is outside, in the order of the first corners: chunk by chunk.
+        let is_outside = |corner: usize| cells.hexahedra[corner / 8].corners[corner % 8] == OUTSIDE;
+        let firsts: Vec<Vec<u32>> = corners
+            .par_chunks(CORNERS)
+            .enumerate()
+            .map(|(chunk, of)| {
+                let own = (chunk * CORNERS..).zip(of).filter(|&(corner, what)| {
+                    matches!(what, Corner::Outside(_)) && is_outside(corner) && sets.is_root(corner as u32)
+                });
+                own.map(|(corner, _)| corner as u32).collect()
+            })
+            .collect();
+        let first = firsts.concat();
+        for (number, &corner) in (0..).zip(&first) {
+            corners[corner as usize] = Corner::Outside(number);
+        }
+        let corners = (0..corners.len())
+            .into_par_iter()
+            .with_min_len(CORNERS)
+            .map(|corner| {
+                if is_outside(corner) { corners[sets.root(corner as u32) as usize] } else { corners[corner] }
+            })
+            .collect();
+        Ok(Self { corners, count: first.len() as u32, first })
     }
 
     /// What a corner outside is.
@@ -100,7 +104,13 @@ fn trouble(cut: &Cut<'_>, number: usize) -> Trouble {
     Trouble::Cell { cell, what: "two copies of a node meet across a side" }
 }
 
-fn sides(cut: &Cut<'_>, cells: &CellHexahedra, monitor: &Monitor<'_>) -> Result<Vec<Sides>, Cancelled> {
+/// Unites corners outside that are one, and gathers what else the sides say.
+fn sides(
+    cut: &Cut<'_>,
+    cells: &CellHexahedra,
+    sets: &SharedUnionFind,
+    monitor: &Monitor<'_>,
+) -> Result<Vec<Sides>, Cancelled> {
     let rows = cut.extension.cells();
     let stage = monitor.stage("vertices outside", rows.count() as u64);
     let ny = cut.grid.nodes()[1] as usize;
@@ -119,7 +129,7 @@ fn sides(cut: &Cut<'_>, cells: &CellHexahedra, monitor: &Monitor<'_>) -> Result<
                         if row < rows.count()
                             && let Some(other) = cut.extension.cell_at(row, i)
                         {
-                            sides.between(cut, cells, axis, [number, other]);
+                            sides.between(cut, cells, sets, axis, [number, other]);
                         }
                     }
                 }
@@ -132,7 +142,14 @@ fn sides(cut: &Cut<'_>, cells: &CellHexahedra, monitor: &Monitor<'_>) -> Result<
 
 impl Sides {
     /// Finds what hangs together across the side between two cells, the second behind the first along an axis.
-    fn between(&mut self, cut: &Cut<'_>, cells: &CellHexahedra, axis: usize, numbers: [usize; 2]) {
+    fn between(
+        &mut self,
+        cut: &Cut<'_>,
+        cells: &CellHexahedra,
+        sets: &SharedUnionFind,
+        axis: usize,
+        numbers: [usize; 2],
+    ) {
         let [lower, upper] = numbers.map(|number| cells.of_cell(number));
         let mut glued: Vec<[u32; 2]> = Vec::new();
         let [(ours, of_ours), (theirs, of_theirs)] = numbers.map(|number| cut.extension.triangles(number));
@@ -158,19 +175,26 @@ impl Sides {
                 let common =
                     |corner: usize| first[corner] != OUTSIDE && first[corner] == second[corner ^ 1 << axis];
                 if glued.contains(&pair) || side.clone().any(common) {
-                    self.glue(numbers[0], axis, pair, [first, second]);
+                    self.glue(sets, numbers[0], axis, pair, [first, second]);
                 }
             }
         }
     }
 
     /// Makes the corners of a side one.
-    fn glue(&mut self, cell: usize, axis: usize, pair: [u32; 2], [first, second]: [[u8; 8]; 2]) {
+    fn glue(
+        &mut self,
+        sets: &SharedUnionFind,
+        cell: usize,
+        axis: usize,
+        pair: [u32; 2],
+        [first, second]: [[u8; 8]; 2],
+    ) {
         for corner in (0..8).filter(|corner| corner >> axis & 1 == 1) {
             let across = corner ^ 1 << axis;
             let corners = [8 * pair[0] + corner as u32, 8 * pair[1] + across as u32];
             match (first[corner], second[across]) {
-                (OUTSIDE, OUTSIDE) => self.same.push(corners),
+                (OUTSIDE, OUTSIDE) => sets.unite(corners[0], corners[1]),
                 (OUTSIDE, copy) => self.copies.push((corners[0], copy)),
                 (copy, OUTSIDE) => self.copies.push((corners[1], copy)),
                 (a, b) if a != b => self.torn = self.torn.or(Some(cell)),

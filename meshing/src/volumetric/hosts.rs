@@ -1,10 +1,15 @@
 //! Where the surface is in the mesh: [`Hosts`].
 
+use rayon::prelude::*;
+
 use super::extension::Extension;
 use super::precursors::cell_of;
 use crate::DVec3;
 use crate::grid::Grid3;
 use crate::surface::TriMesh;
+
+/// Cells that a thread takes at a time.
+const CELLS: usize = 1 << 12;
 
 /// A vertex of the surface in a hexahedron.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,40 +64,64 @@ impl Hosts {
         mesh: &TriMesh,
         grid: &Grid3,
         extension: &Extension,
-        became: impl Fn(u32) -> u32,
+        became: impl Fn(u32) -> u32 + Sync,
     ) -> Self {
         let ny = grid.nodes()[1] as usize;
         let none = Host { hexahedron: u32::MAX, at: [0.0; 3] };
         let mut hosts =
             Self { vertices: vec![none; mesh.positions().len()], triangles: Vec::new(), disagreements: 0 };
         let mut disagrees = vec![false; mesh.positions().len()];
-        for (t, corners) in mesh.triangles().iter().enumerate() {
-            for corner in corners {
-                let p = mesh.positions()[corner.index()];
-                let cell: [u32; 3] = std::array::from_fn(|axis| cell_of(grid, axis, p[axis]));
-                let row = cell[1] as usize + ny * cell[2] as usize;
-                let number =
-                    extension.cell_at(row, cell[0]).expect("a triangle meets the cell of its vertex");
-                let hexahedron =
-                    extension.hexahedron_of(number, t as u32).expect("the triangle is in its list");
-                let (hexahedron, host) = (became(hexahedron), &mut hosts.vertices[corner.index()]);
+        let of_corners: Vec<[u32; 3]> = (0..mesh.triangles().len() as u32)
+            .into_par_iter()
+            .with_min_len(1024)
+            .map(|t| {
+                mesh.triangles()[t as usize].map(|corner| {
+                    let cell = cell_with(grid, mesh.positions()[corner.index()]);
+                    let row = cell[1] as usize + ny * cell[2] as usize;
+                    let number =
+                        extension.cell_at(row, cell[0]).expect("a triangle meets the cell of its vertex");
+                    became(extension.hexahedron_of(number, t).expect("the triangle is in its list"))
+                })
+            })
+            .collect();
+        for (corners, of_corners) in mesh.triangles().iter().zip(of_corners) {
+            for (corner, hexahedron) in corners.iter().zip(of_corners) {
+                let host = &mut hosts.vertices[corner.index()];
                 if host.hexahedron == u32::MAX {
-                    *host = Host { hexahedron, at: within(grid, cell, p) };
+                    let p = mesh.positions()[corner.index()];
+                    *host = Host { hexahedron, at: within(grid, cell_with(grid, p), p) };
                 } else if host.hexahedron != hexahedron {
                     disagrees[corner.index()] = true;
                 }
             }
         }
         hosts.disagreements = disagrees.iter().filter(|&&disagrees| disagrees).count();
-        for number in 0..extension.cells().items().len() {
-            let (triangles, hexahedra) = extension.triangles(number);
-            let pairs = triangles.iter().zip(hexahedra);
-            hosts.triangles.extend(pairs.map(|(precursor, &h)| [became(h), precursor.triangle]));
-        }
-        hosts.triangles.sort_unstable();
-        hosts.triangles.dedup();
+        // Hexahedra are numbered cell by cell, so that lists sorted within cells are sorted.
+        let cells = extension.cells().items().len();
+        let lists: Vec<Vec<[u32; 2]>> = (0..cells.div_ceil(CELLS))
+            .into_par_iter()
+            .map(|chunk| {
+                let mut list = Vec::new();
+                for number in chunk * CELLS..cells.min((chunk + 1) * CELLS) {
+                    let begin = list.len();
+                    let (triangles, hexahedra) = extension.triangles(number);
+                    let pairs = triangles.iter().zip(hexahedra);
+                    list.extend(pairs.map(|(precursor, &h)| [became(h), precursor.triangle]));
+                    list[begin..].sort_unstable();
+                }
+                list.dedup();
+                list
+            })
+            .collect();
+        hosts.triangles = lists.concat();
+        debug_assert!(hosts.triangles.is_sorted());
         hosts
     }
+}
+
+/// The cell that holds a point.
+fn cell_with(grid: &Grid3, p: DVec3) -> [u32; 3] {
+    std::array::from_fn(|axis| cell_of(grid, axis, p[axis]))
 }
 
 /// The coordinates of a point within a cell, from 0 to 1.

@@ -15,10 +15,15 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use super::crossings::{Crossing, Crossings};
 use super::rows::Rows;
+use super::shared_union_find::SharedUnionFind;
 use crate::grid::Grid3;
-use crate::surface::topology::union_find::UnionFind;
+
+/// Rows that a thread takes at a time.
+const ROWS: usize = 64;
 
 /// No stretch begins behind that crossing.
 const NONE: u32 = u32::MAX;
@@ -29,7 +34,7 @@ pub(super) struct Pieces<'a> {
     windings: Vec<i32>,
     /// For each crossing along y and z the stretch behind it, if another crossing of the same edge follows.
     stretches: [Vec<u32>; 2],
-    sets: UnionFind,
+    sets: SharedUnionFind,
     seams: Option<Seams>,
 }
 
@@ -54,6 +59,14 @@ struct Seams {
 }
 
 impl Seams {
+    /// Adds edges between two runs.
+    fn add(&mut self, runs: [u32; 2], axis: usize, nodes: Range<u32>) {
+        let seam = self.pieces.len() as u32;
+        self.edges[axis - 1].push(SeamEdges { begin: nodes.start, end: nodes.end, seam });
+        self.pieces.push(runs);
+        self.with_edges += 1;
+    }
+
     /// The seams of the edges along an axis from a row.
     fn of_row(&self, axis: usize, row: usize) -> &[SeamEdges] {
         let (starts, all) = (&self.starts[axis - 1], &self.edges[axis - 1]);
@@ -69,7 +82,7 @@ impl<'a> Pieces<'a> {
             crossings,
             windings: Vec::new(),
             stretches: [Vec::new(), Vec::new()],
-            sets: UnionFind::new(0),
+            sets: SharedUnionFind::new(0),
             seams: split.then(Seams::default),
         };
         let mut stretches = [Vec::new(), Vec::new()];
@@ -77,7 +90,7 @@ impl<'a> Pieces<'a> {
             stretches[axis - 1] = pieces.list_stretches(axis, &mut windings);
         }
         pieces.stretches = stretches;
-        pieces.sets = UnionFind::new(windings.len());
+        pieces.sets = SharedUnionFind::new(windings.len());
         pieces.windings = windings;
         pieces.join_rows(grid);
         pieces
@@ -106,26 +119,54 @@ impl<'a> Pieces<'a> {
         behind
     }
 
-    /// Unites runs of neighbouring rows.
+    /// Unites runs of neighbouring rows, or makes seams between them.
     fn join_rows(&mut self, grid: &Grid3) {
         let [nx, ny, nz] = grid.nodes();
+        let rows = ny as usize * nz as usize;
+        // The next row along an axis, if there is one.
+        let next = |axis: usize, row: usize| {
+            let at = [row % ny as usize, row / ny as usize][axis - 1] + 1;
+            (at < [ny, nz][axis - 1] as usize).then_some(row + [1, ny as usize][axis - 1])
+        };
+        let Some(mut seams) = self.seams.take() else {
+            for axis in [1, 2] {
+                (0..rows).into_par_iter().with_min_len(ROWS).for_each(|row| {
+                    if let Some(other) = next(axis, row) {
+                        self.for_each_join([row, other], axis, nx, |[a, b], _| self.sets.unite(a, b));
+                    }
+                });
+            }
+            return;
+        };
         for axis in [1, 2] {
-            let step = if axis == 1 { 1 } else { ny as usize };
-            for row in 0..ny as usize * nz as usize {
-                if let Some(seams) = &mut self.seams {
-                    let begin = seams.edges[axis - 1].len();
-                    seams.starts[axis - 1].push(begin);
-                }
-                let at = [row % ny as usize + 1, row / ny as usize + 1][axis - 1];
-                if at < [ny, nz][axis - 1] as usize {
-                    self.join([row, row + step], axis, nx);
-                }
+            for row in 0..rows {
+                seams.starts[axis - 1].push(seams.edges[axis - 1].len());
+                let Some(other) = next(axis, row) else { continue };
+                self.for_each_join([row, other], axis, nx, |runs, nodes| {
+                    if self.windings[runs[0] as usize] > 1 {
+                        seams.add(runs, axis, nodes);
+                    } else {
+                        self.sets.unite(runs[0], runs[1]);
+                    }
+                });
             }
         }
+        self.seams = Some(seams);
     }
 
-    /// Unites the runs of two rows where an edge between them is not among those that are cut.
-    fn join(&mut self, [row, other]: [usize; 2], axis: usize, nx: u32) {
+    /// Calls `join` with runs of two rows and the nodes from which edges between them are not cut.
+    fn for_each_join(
+        &self,
+        [row, other]: [usize; 2],
+        axis: usize,
+        nx: u32,
+        mut join: impl FnMut([u32; 2], Range<u32>),
+    ) {
+        let mut join = |runs: [u32; 2], nodes: Range<u32>| {
+            let [a, b] = runs.map(|run| self.windings[run as usize]);
+            debug_assert_eq!(a, b, "the surface is closed");
+            join(runs, nodes);
+        };
         let crossings = self.crossings;
         let cuts = crossings.axes[axis].row(row);
         let [of_row, of_other] = [row, other].map(|row| crossings.axes[0].row(row));
@@ -138,7 +179,7 @@ impl<'a> Pieces<'a> {
             while cut < cuts.len() && cuts[cut].i < end {
                 let i = cuts[cut].i;
                 if whole < i {
-                    self.join_runs(runs, axis, whole..i);
+                    join(runs, whole..i);
                 }
                 whole = i + 1;
                 while cut < cuts.len() && cuts[cut].i == i {
@@ -146,7 +187,7 @@ impl<'a> Pieces<'a> {
                 }
             }
             if whole < end {
-                self.join_runs(runs, axis, whole..end);
+                join(runs, whole..end);
             }
             begin = end;
             // Past all runs that end here: those behind the first hold no node.
@@ -156,21 +197,6 @@ impl<'a> Pieces<'a> {
             while end_of(of_other, b) <= end && b < of_other.len() {
                 b += 1;
             }
-        }
-    }
-
-    /// Unites two runs between which the edges from some nodes are not cut, or makes a seam of these.
-    fn join_runs(&mut self, runs: [u32; 2], axis: usize, nodes: Range<u32>) {
-        let winding = self.windings[runs[0] as usize];
-        debug_assert_eq!(winding, self.windings[runs[1] as usize], "the surface is closed");
-        match &mut self.seams {
-            Some(seams) if winding > 1 => {
-                let seam = seams.pieces.len() as u32;
-                seams.edges[axis - 1].push(SeamEdges { begin: nodes.start, end: nodes.end, seam });
-                seams.pieces.push(runs);
-                seams.with_edges += 1;
-            }
-            _ => self.sets.unite(runs[0], runs[1]),
         }
     }
 
@@ -307,8 +333,12 @@ impl<'a> Pieces<'a> {
     pub(super) fn regions(mut self, whole: Option<&Regions<'_>>) -> Regions<'a> {
         let mut of_piece = vec![0; self.windings.len()];
         let mut windings = Vec::new();
-        for piece in 0..self.windings.len() as u32 {
-            let root = self.sets.root(piece);
+        let roots: Vec<u32> = (0..self.windings.len() as u32)
+            .into_par_iter()
+            .with_min_len(ROWS * ROWS)
+            .map(|piece| self.sets.root(piece))
+            .collect();
+        for (piece, root) in (0..).zip(roots) {
             if root == piece {
                 of_piece[piece as usize] = windings.len() as u32;
                 windings.push(self.windings[piece as usize]);
@@ -316,7 +346,7 @@ impl<'a> Pieces<'a> {
                 of_piece[piece as usize] = of_piece[root as usize];
             }
         }
-        self.sets = UnionFind::new(0);
+        self.sets = SharedUnionFind::new(0);
         let names = whole.map(|whole| whole.of_piece.clone());
         Regions { pieces: self, of_piece, windings, names }
     }

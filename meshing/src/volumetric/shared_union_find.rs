@@ -33,6 +33,11 @@ impl SharedUnionFind {
         }
     }
 
+    /// Whether an element is the smallest member of its set.
+    pub(super) fn is_root(&self, x: u32) -> bool {
+        self.parent[x as usize].load(Relaxed) == x
+    }
+
     /// Makes one set of two.
     pub(super) fn unite(&self, mut a: u32, mut b: u32) {
         loop {
