@@ -28,7 +28,8 @@ pub struct VolumeParameters {
     pub max_refinements: u32,
     /// Most cells of the grid, counted over its whole box, at any refinement. The default is 2^32.
     pub max_cells: u64,
-    /// How often the mesh is coarsened by doubling, beyond what undoes refinements. The default is 0.
+    /// How often the mesh is coarsened by doubling, beyond what undoes refinements; less often where a larger hexahedron would change the
+    /// topology, or hold two of the sheets that lie over one another. The default is 0.
     pub coarsenings: u32,
     /// Whether cells are also halved where Euler characteristics, summed over all components, tell that a tunnel or a gap lies within one. The
     /// default is yes. [`verify`](super::verify) compares them component by component.

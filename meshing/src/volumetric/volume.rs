@@ -4,7 +4,7 @@ use super::error::{Trouble, VolumeError};
 use super::hosts::Hosts;
 use super::mesher::{OnGrid, Stopped, mesh_on_grid};
 use super::pairing::Pairing;
-use super::verify::{check_euler, place_of};
+use super::verify::{check_copies, check_euler, place_of};
 use super::{CoarsenError, HexMesh, Resolution, VolumeParameters, euler_characteristics};
 use crate::Monitor;
 use crate::grid::{Grid, Grid3};
@@ -92,7 +92,7 @@ pub fn mesh_volume(
             checked(on_grid, hosts, &pairing, parameters, refinements, monitor)
         },
     )?;
-    coarsened(volume, refinements + parameters.coarsenings, monitor)
+    coarsened(surface, volume, refinements + parameters.coarsenings, monitor)
 }
 
 /// The mesh on one grid, unless features of the surface were too fine for its cells.
@@ -169,11 +169,19 @@ fn fault(
     }))
 }
 
-/// The mesh coarsened so often, or as often as its topology is kept.
-fn coarsened(mut volume: VolumeMesh, times: u32, monitor: &Monitor<'_>) -> Result<VolumeMesh, VolumeError> {
+/// The mesh coarsened so often, or as often as its topology is kept and no larger hexahedron holds two of the sheets that lie over one
+/// another.
+fn coarsened(
+    surface: &ClosedOrientedMesh,
+    mut volume: VolumeMesh,
+    times: u32,
+    monitor: &Monitor<'_>,
+) -> Result<VolumeMesh, VolumeError> {
     for _ in 0..times {
         match volume.coarsened(monitor) {
-            Ok((coarse, report)) if report.kept() => volume = coarse,
+            Ok((coarse, report)) if report.kept() && check_copies(surface, &coarse, monitor)?.0.none() => {
+                volume = coarse;
+            }
             Err(CoarsenError::Cancelled(cancelled)) => return Err(cancelled.into()),
             Ok(_) | Err(_) => break,
         }

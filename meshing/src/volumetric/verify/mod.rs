@@ -1,8 +1,8 @@
 //! Proof that a volumetric mesh is right: [`verify`].
 //!
 //! # What it checks
-//! * *Copies*: each cell that the surface does not meet has as many hexahedra as the surface winds around it. The winding numbers are
-//!   those of [`grid_winding_numbers`](crate::distance::grid_winding_numbers), which the mesher does not use.
+//! * *Copies*: each cell that the surface does not meet has as many hexahedra as the surface winds around it, and each other cell at least
+//!   as many as it winds around any of its corners. The winding numbers are those of [`grid_winding_numbers`](crate::distance::grid_winding_numbers), which the mesher does not use.
 //! * *Euler characteristics*: that of each component is half that of the surfaces that bound it, as for every compact 3-manifold.
 //! * *Embedding*: whoever walks along the surface stays in the mesh. The hexahedra that hold a triangle have their common sides in
 //!   common; in each cell that an edge meets both of its triangles are in one hexahedron; all triangles around a vertex agree on its host.
@@ -20,6 +20,7 @@ mod euler;
 mod windings;
 
 pub(super) use euler::{check as check_euler, place_of};
+pub(super) use windings::check as check_copies;
 
 use std::fmt;
 
@@ -35,13 +36,13 @@ const MOST_LISTED: usize = 16;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// A cell has another number of hexahedra than the surface winds around it.
+    /// A cell has another number of hexahedra than the surface winds around it, or fewer than that if the surface meets it.
     Copies {
         /// Index of the cell.
         cell: [u32; 3],
         /// How many hexahedra it has.
         hexahedra: u32,
-        /// How often the surface winds around it.
+        /// How often the surface winds around it: at most, if the surface meets the cell.
         winding: i32,
     },
     /// A component's Euler characteristic is not half that of its boundary.
@@ -156,7 +157,7 @@ pub struct Verification {
     pub euler: Findings,
     /// Places where the surface leaves the mesh.
     pub embedding: Findings,
-    /// How many cells' copies were compared.
+    /// How many cells' copies were compared, apart from those that the surface meets.
     pub cells: u64,
     /// The Euler characteristic of each component.
     pub characteristics: Vec<i64>,
