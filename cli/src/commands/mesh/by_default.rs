@@ -77,7 +77,8 @@ impl Meshed {
         seconds: &mut Seconds,
     ) -> Result<Image, Box<Failure>> {
         let mesh = &self.product.volume.mesh;
-        let (components, cut) = (&self.product.components[..], cutaway::through_overlap(mesh));
+        let (components, cut) =
+            (&self.product.components[..], cutaway::through_overlap(&self.product.volume));
         let view = Cutaway { mesh, components, cut, camera: None, size, title };
         cutaway::draw(&view, run, seconds, &Monitor::none()).map_err(cutaway::Problem::into_failure)
     }

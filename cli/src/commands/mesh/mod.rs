@@ -128,10 +128,13 @@ impl Job<'_> {
     fn over_memory(&self, free: u64) -> Box<Failure> {
         let (args, spacing) = (self.args, self.chosen.spacing);
         let needed = self.measures.bytes(spacing, args.tet);
+        let hexahedra = match self.measures.hexahedra(spacing) {
+            count if count.is_finite() => format!("about {}", numbers::number(count)),
+            _ => "more than 1e308".to_owned(),
+        };
         let what = format!(
-            "cells of side {} are about {} hexahedra, which may take {}, and {} {}",
+            "cells of side {} are {hexahedra} hexahedra, which may take {}, and {} {}",
             numbers::number(spacing),
-            numbers::number(self.measures.hexahedra(spacing)),
             if needed < 1e18 {
                 numbers::bytes(needed as u64)
             } else {
@@ -244,7 +247,7 @@ impl Job<'_> {
         }
         if args.picture.is_some() {
             let (mesh, components) = (&product.volume.mesh, &product.components[..]);
-            let cut = args.cut.unwrap_or_else(|| cutaway::through_overlap(mesh));
+            let cut = args.cut.unwrap_or_else(|| cutaway::through_overlap(&product.volume));
             let title = &args.input.file_stem().unwrap_or_default().to_string_lossy();
             let view = Cutaway { mesh, components, cut, camera: args.camera, size: args.picture_size, title };
             match cutaway::draw(&view, run, seconds, monitor) {
