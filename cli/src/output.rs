@@ -238,7 +238,14 @@ pub(crate) fn cannot_write(name: &Path, error: &io::Error) -> Box<Failure> {
         }
         ErrorKind::NotFound => {
             let folder = name.parent().unwrap_or(Path::new("."));
-            (Code::FolderMissing, format!("mkdir -p {}", shell_word(folder)))
+            if folder.is_dir() {
+                (
+                    Code::NotWritable,
+                    "name an output in another folder: this one takes no new files".to_owned(),
+                )
+            } else {
+                (Code::FolderMissing, format!("mkdir -p {}", shell_word(folder)))
+            }
         }
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
             let folder = match name.parent() {
@@ -276,6 +283,9 @@ mod tests {
         assert_eq!(code(ErrorKind::PermissionDenied), Code::NotWritable);
         assert_eq!(code(ErrorKind::ReadOnlyFilesystem), Code::NotWritable);
         assert_eq!(code(ErrorKind::NotFound), Code::FolderMissing);
+        // A folder of the system that is there, and takes no files.
+        let there = cannot_write(&std::env::temp_dir().join("out.ply"), &ErrorKind::NotFound.into());
+        assert_eq!(there.code, Code::NotWritable);
         assert_eq!(code(ErrorKind::StorageFull), Code::WriteFailed);
         assert_eq!(code(ErrorKind::Other), Code::WriteFailed);
     }

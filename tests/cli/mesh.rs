@@ -216,6 +216,30 @@ fn coarser_cells_come_of_finer_ones() {
 }
 
 #[test]
+fn cells_wider_than_the_body_is_thick_are_told() {
+    let bench = Bench::new();
+    bench.file("a.obj", cube(0.0, 1.0, 1, false));
+    // The mesh has (0.5 / 0.1)^3 or more times the volume of a cube of side 0.1.
+    bench.file("small.obj", cube(0.0, 0.1, 1, false));
+    let wide = "times the volume of the surface";
+    assert!(bench.run("mesh small.obj -o b.vtu -s 0.5").ok().err.contains(wide));
+    assert!(!bench.run("mesh a.obj -o a.vtu -s 0.1").ok().err.contains(wide));
+}
+
+#[test]
+fn without_overlap_the_picture_is_cut_in_the_middle() {
+    let bench = Bench::new();
+    // Letters share a few cells with themselves beside narrow gaps, which is no overlap.
+    bench.run("shape text -o a.ply").ok();
+    let (object, ran) =
+        bench.json("mesh a.ply -o a.vtu -r 10 --no-betti --picture a.png --picture-size 160x120");
+    assert_eq!(ran.exit, Some(0), "{}", ran.err);
+    let cut = object["cut"].as_str().unwrap().strip_prefix("z=").expect("across the shortest side");
+    let spacing = object["cell_size"].as_f64().unwrap();
+    assert!(cut.parse::<f64>().unwrap().abs() <= spacing, "{object:#}");
+}
+
+#[test]
 fn a_picture_is_cut_where_it_was_asked_for() {
     let bench = Bench::new();
     bench.run("shape two-boxes -o a.ply").ok();

@@ -52,7 +52,7 @@ pub(crate) struct Args {
     /// Side of a cell, absolute
     #[arg(short, long, value_name = "H", allow_negative_numbers = true)]
     pub(super) spacing: Option<f64>,
-    /// Double the cells of the finished mesh K times, or as often as its topology is kept
+    /// Double the cells of the finished mesh K times, or as often as its topology is kept and sheets stay apart
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub(super) coarsen: u32,
     /// How often cells may be halved where features are too fine

@@ -6,11 +6,14 @@ use super::groups::Groups;
 use crate::console::Seconds;
 use crate::failure::{Failure, shown};
 use crate::input::STANDARD;
-use crate::machine;
 use crate::render::Cut;
 use crate::run::{Outcome, Run};
+use crate::{machine, numbers};
 use serde_json::{Value, json};
 use std::path::Path;
+
+/// Times the volume of the surface that a mesh has before it is told that its cells are wide.
+const WIDE: f64 = 2.0;
 
 /// Everything that is told.
 pub(super) struct Report<'a> {
@@ -24,6 +27,12 @@ pub(super) struct Report<'a> {
 }
 
 impl Report<'_> {
+    /// The volume of the mesh, as a multiple of that of the surface.
+    fn times_the_volume(&self) -> f64 {
+        let mesh = &self.facts.product.volume.mesh;
+        mesh.len() as f64 * mesh.grid().spacing().powi(3) / self.facts.surface_volume
+    }
+
     /// Tells it; the exit code is that of the failure, if there is one.
     pub(super) fn tell(&self, run: &Run, seconds: &Seconds, failure: Option<Box<Failure>>) -> Outcome {
         let (console, args, volume) = (&run.console, self.job.args, &self.facts.product.volume);
@@ -33,8 +42,15 @@ impl Report<'_> {
         let wanted = volume.refinements + args.coarsen;
         if volume.coarsenings < wanted {
             console.note(&format!(
-                "coarsened {} of {wanted} times: once more would change the topology",
+                "coarsened {} of {wanted} times: once more would change the topology, or join sheets that overlap",
                 volume.coarsenings
+            ));
+        }
+        let times = self.times_the_volume();
+        if times > WIDE && times.is_finite() {
+            console.note(&format!(
+                "the mesh has {} times the volume of the surface: the cells are wider than most of it is thick (-r or -s for smaller ones)",
+                numbers::number(times)
             ));
         }
         console.note(&format!("{} written", args.output.display()));
