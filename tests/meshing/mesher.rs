@@ -3,3 +3,5 @@
 mod hostile;
 mod laws;
 mod solids;
+mod tubes;
+mod unfolded;

@@ -1,4 +1,4 @@
-//! Random solids that overlap themselves: [`body`], and what they are made of.
+//! Random solids that overlap themselves: [`body`], [`tube_body`], and what they are made of.
 
 use std::f64::consts::TAU;
 
@@ -40,6 +40,46 @@ pub fn body(seed: u64) -> Body {
         radius: first.radius * scale.min(1.0),
         round: first.round.or(second.round),
     }
+}
+
+/// The tube of a seed, open, closed or closed after half a turn, that passes through itself somewhere. Of seven out of eight no tetrahedron
+/// is inside out.
+#[must_use]
+pub fn tube_body(seed: u64) -> Body {
+    let random = &mut Random::new(seed);
+    let (closed, any) = (random.below(2) == 0, random.below(8) == 0);
+    loop {
+        let body = outward(tube(random, closed));
+        if passes_through_itself(&body) && (any || body.solid.inverted() == 0) {
+            return body;
+        }
+    }
+}
+
+/// Whether the middles of two sections are nearer than three quarters of the thickness, though farther apart along the tube than a half
+/// circle of half its thickness.
+fn passes_through_itself(body: &Body) -> bool {
+    let solid = &body.solid;
+    let count = solid.along.iter().copied().fold(0.0, f64::max) as usize + 1;
+    let mut sums = vec![(DVec3::ZERO, 0.0); count];
+    for (&p, &along) in solid.positions.iter().zip(&solid.along) {
+        let (sum, vertices) = &mut sums[along as usize];
+        (*sum, *vertices) = (*sum + p, *vertices + 1.0);
+    }
+    let middles: Vec<DVec3> = sums.into_iter().map(|(sum, vertices)| sum / vertices).collect();
+    let mut way = vec![0.0];
+    way.extend(middles.windows(2).scan(0.0, |way, pair| {
+        *way += pair[0].distance(pair[1]);
+        Some(*way)
+    }));
+    let round = body.round.map(|_| way[count - 1] + middles[0].distance(middles[count - 1]));
+    (0..count).any(|a| {
+        (0..a).any(|b| {
+            let on = way[a] - way[b];
+            let apart = round.map_or(on, |round| on.min(round - on));
+            apart > std::f64::consts::PI * body.radius && middles[a].distance(middles[b]) < 1.5 * body.radius
+        })
+    })
 }
 
 /// Its mirror image if it is inside out as a whole.

@@ -3,8 +3,12 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
+use welter_meshing::grid::Grid3;
 use welter_meshing::surface::{ClosedOrientedMesh, TriMesh, TriangleSoup};
+use welter_predicates::moved_grid::orient3d_moved;
 use welter_predicates::{Sign, orient3d};
+
+use super::unfolded::cells_near;
 
 /// The paths from corner 0 of a cube to corner 7: six tetrahedra, the same in all cubes, so that they fit.
 const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
@@ -97,14 +101,80 @@ impl Solid {
         vertices.map(|v| self.positions[v as usize].to_array())
     }
 
-    /// How many tetrahedra are flat or inside out. With none of them the solid is immersed, if it is around each edge and vertex.
+    /// How many tetrahedra are flat or inside out. With none of them the solid is immersed, if it is around each vertex:
+    /// [`Self::folded_vertex`].
     #[must_use]
     pub fn inverted(&self) -> usize {
-        let inverted = |tet: &&[u32; 4]| {
-            let [a, b, c, d] = self.places(**tet);
-            orient3d(a, b, c, d) != Sign::Negative
+        self.inside_out().count()
+    }
+
+    /// A vertex around which two tetrahedra lie over each other however near, so that the solid is not immersed there. Around an edge
+    /// they do so around its ends.
+    #[must_use]
+    pub fn folded_vertex(&self) -> Option<u32> {
+        let mut around = vec![Vec::new(); self.positions.len()];
+        for tet in &self.tets {
+            for (c, &v) in tet.iter().enumerate() {
+                around[v as usize].push([1, 2, 3].map(|step| tet[(c + step) % 4]));
+            }
+        }
+        (0..).zip(&around).find_map(|(v, cones)| {
+            let folded =
+                |(k, cone): (usize, &[u32; 3])| cones[..k].iter().any(|other| self.overlap(v, *cone, *other));
+            cones.iter().enumerate().any(folded).then_some(v)
+        })
+    }
+
+    /// Whether the cones from a vertex to two triangles have inner points in common: if no plane through two of their edges is between
+    /// them.
+    fn overlap(&self, vertex: u32, cone: [u32; 3], other: [u32; 3]) -> bool {
+        let edges = [cone, other].concat();
+        let pairs = (0..6).flat_map(|k| (0..k).map(move |l| [k, l]));
+        let side = |[k, l]: [usize; 2], v: u32| {
+            let [a, b, c, d] = self.places([vertex, edges[k], edges[l], v]);
+            orient3d(a, b, c, d)
         };
-        self.tets.iter().filter(inverted).count()
+        let apart = |pair: [usize; 2]| {
+            let [first, second] = [cone, other].map(|cone| cone.map(|v| side(pair, v)));
+            let all = |signs: [Sign; 3], not: Sign| signs.iter().all(|&sign| sign != not);
+            // Two edges along one line have no plane.
+            first.iter().any(|&sign| sign != Sign::Zero)
+                && ((all(first, Sign::Negative) && all(second, Sign::Positive))
+                    || (all(first, Sign::Positive) && all(second, Sign::Negative)))
+        };
+        !pairs.into_iter().any(apart)
+    }
+
+    /// The corners of the tetrahedra that are flat or inside out.
+    pub fn inside_out(&self) -> impl Iterator<Item = [[f64; 3]; 4]> {
+        self.tets
+            .iter()
+            .map(|tet| self.places(*tet))
+            .filter(|&[a, b, c, d]| orient3d(a, b, c, d) != Sign::Negative)
+    }
+
+    /// For each node of the moved grid, how many tetrahedra contain it, less those that contain it inside out: so often the surface winds
+    /// around it.
+    #[must_use]
+    pub fn depths(&self, grid: &Grid3) -> Vec<i32> {
+        let mut depths = vec![0; grid.node_count()];
+        for (t, tet) in self.tets.iter().enumerate() {
+            let corners = self.places(*tet);
+            let sides = [0, 1, 2, 3].map(|side| self.places(self.side(t as u32, side)));
+            // The first corners of the cells near the tetrahedron are the nodes near it.
+            cells_near(grid, &corners, |node| {
+                let [first, rest @ ..] =
+                    sides.map(|side| orient3d_moved(side[0], side[1], side[2], grid.node(node)));
+                if rest.iter().all(|&side| side == first) {
+                    depths[grid.node_index(node)] += match first {
+                        Sign::Positive => 1,
+                        Sign::Zero => 0,
+                        Sign::Negative => -1,
+                    };
+                }
+            });
+        }
+        depths
     }
 
     /// Solids beside each other.
