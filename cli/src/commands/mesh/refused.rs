@@ -125,7 +125,7 @@ fn in_words(place: &Place) -> String {
 /// The command that shows what is there: from the side that makes the widest picture of the place.
 fn look(args: &Args, place: &Place, measures: &Measures) -> String {
     let input = shell_word(&args.input);
-    if measures.volume < 0.0 {
+    if measures.volume < 0.0 && !args.outward {
         return format!(
             "--outward   # turns it; to look: welter render {input} -o look.png, where blue is the inside"
         );
@@ -133,8 +133,10 @@ fn look(args: &Args, place: &Place, measures: &Measures) -> String {
     let extent = place.max - place.min;
     let axis = (0..3).min_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(2);
     let cut = numbers::number(middle(place)[axis]);
+    // Highlighted self-intersections would hide the blue.
+    let turn = if args.outward { "" } else { "; if whole components are: --outward" };
     format!(
-        "welter render {input} -o look.png --cut {}={cut} --self-intersections   # blue is the inside; if whole components are: --outward",
+        "welter render {input} -o look.png --cut {}={cut}   # blue is the inside{turn}",
         ["x", "y", "z"][axis]
     )
 }
@@ -148,12 +150,29 @@ mod tests {
     use super::*;
     use crate::args::{Cli, Command};
     use clap::Parser;
+    use welter_meshing::shapes::{Box_, box_};
     use welter_meshing::volumetric::{Finding, Findings};
+
+    fn args(line: &str) -> Args {
+        let cli = Cli::try_parse_from(line.split(' ')).expect("a command line");
+        let Command::Mesh(args) = cli.command else { panic!("another command") };
+        args
+    }
+
+    #[test]
+    fn what_was_tried_is_not_proposed_again() {
+        let surface = box_(&Box_::default()).expect("a box");
+        let place = Place { min: DVec3::ZERO, max: DVec3::new(1.0, 3.0, 2.0), nodes: 9 };
+        let help = |line: &str| look(&args(line), &place, &Measures::of(&surface));
+        let first = help("welter mesh a.ply -o a.vtu");
+        assert!(first.contains("--cut x=0.5 ") && first.contains("--outward"), "{first}");
+        let second = help("welter mesh a.ply -o a.vtu --outward");
+        assert!(second.contains("--cut x=0.5 ") && !second.contains("--outward"), "{second}");
+    }
 
     #[test]
     fn a_wrong_mesh_is_told_with_its_places() {
-        let cli = Cli::try_parse_from(["welter", "mesh", "a.ply", "-o", "a.vtu"]).expect("a command line");
-        let Command::Mesh(args) = cli.command else { panic!("another command") };
+        let args = args("welter mesh a.ply -o a.vtu");
         let finding = Finding::Copies { cell: [1, 2, 3], hexahedra: 1, winding: 2 };
         let winding_copies = Findings { count: 1, first: vec![finding] };
         let verification = Verification { winding_copies, ..Verification::default() };
