@@ -198,6 +198,61 @@ fn groups_of_the_surface_are_tags_of_the_boundary() {
 }
 
 #[test]
+fn names_of_groups_are_kept() {
+    let bench = Bench::new();
+    let long = "o".repeat(200);
+    let text = cube(0.0, 1.0, 1, false)
+        .replace("g left", "g links, Ärmel <1>")
+        .replace("g front", "g \"quoted\"")
+        .replace("g back", &format!("g {long}"))
+        .replace("g top", "g");
+    bench.file("a.obj", text + &cube(2.0, 1.0, 9, false));
+    let names = [
+        "links, Ärmel <1>",
+        "right",
+        "\"quoted\"",
+        &long,
+        "bottom",
+        "left",
+        "front",
+        "back",
+        "top",
+        "surface",
+    ];
+    let groups = |mesh: &VolumeData, dimension: usize| -> Vec<(i32, String)> {
+        let of = mesh.groups.iter().filter(|group| group.dimension == dimension);
+        of.map(|group| (group.tag, group.name.clone())).collect()
+    };
+    let numbered = |names: &[&str]| -> Vec<(i32, String)> {
+        (1..).zip(names).map(|(number, name)| (number, (*name).to_owned())).collect()
+    };
+    let (object, ran) = bench.json("mesh a.obj -o a.vtu -r 4 --boundary");
+    assert_eq!((&object["groups"], &object["dropped"]), (&json!(names), &json!([])), "{}", ran.err);
+    let mesh = vtu(&bench, "a.vtu");
+    assert_eq!(groups(&mesh, 2), numbered(&names));
+    assert_eq!(groups(&mesh, 3), numbered(&["component 1", "component 2"]));
+    let known: Vec<i32> = mesh.groups.iter().map(|group| group.tag).collect();
+    assert!(integers(&mesh, "tag").iter().all(|tag| known.contains(tag)));
+
+    let mut as_msh = names;
+    (as_msh[2], as_msh[3]) = ("'quoted'", &long[..127]);
+    for options in ["", " --msh 2", " --msh 2 --ascii", " --ascii --tet"] {
+        let (object, ran) = bench.json(&format!("mesh a.obj -o a.msh -r 4 --force{options}"));
+        let mesh = read_msh(&bench.read("a.msh")[..], &Limits::default()).unwrap().0;
+        assert_eq!(groups(&mesh, 2), numbered(&as_msh), "{options}");
+        assert_eq!(groups(&mesh, 3), numbered(&["component 1", "component 2"]), "{options}");
+        assert!(
+            object["dropped"].as_array().unwrap().contains(&json!("2 group names changed")),
+            "{}",
+            ran.err
+        );
+    }
+    let (object, _) = bench.json("mesh a.obj -o a.mesh -r 4");
+    let lost = json!("names of 12 groups not written");
+    assert!(object["dropped"].as_array().unwrap().contains(&lost), "{object:#}");
+}
+
+#[test]
 fn coarser_cells_come_of_finer_ones() {
     let bench = Bench::new();
     bench.file("a.obj", cube(0.0, 1.0, 1, false));

@@ -36,6 +36,7 @@ def described(mesh):
         "cells": [[block.type, np.asarray(block.data).tolist()] for block in mesh.cells],
         "point_data": point_data,
         "cell_data": cell_data,
+        "field_data": {name: np.asarray(data).tolist() for name, data in mesh.field_data.items()},
     }
 
 

@@ -59,6 +59,7 @@ def vtu(path):
         "point_data": arrays(grid.GetPointData()),
         "cell_data": arrays(grid.GetCellData()),
         "pyvista": [mesh.n_points, mesh.n_cells, sorted(mesh.array_names)],
+        "pyvista_groups": {name: list(map(int, mesh.field_data[name])) for name in mesh.field_data},
     }
 
 
@@ -96,11 +97,15 @@ def msh(path):
             sizes[str(kind)] = gmsh.model.mesh.getElementQualities(sorted(tags), "volume").tolist()
             sizes[str(kind)] += gmsh.model.mesh.getElementQualities(sorted(tags), "minDetJac").tolist()
     groups = {}
+    names = {}
     for dimension, tag in gmsh.model.getPhysicalGroups():
         members = 0
         for entity in gmsh.model.getEntitiesForPhysicalGroup(dimension, tag):
             members += sum(map(len, gmsh.model.mesh.getElements(dimension, entity)[1]))
         groups[f"{dimension} {tag}"] = members
+        name = gmsh.model.getPhysicalName(dimension, tag)
+        if name:
+            names[f"{dimension} {tag}"] = name
     views = {}
     for view in gmsh.view.getTags():
         kind, _, values, _, components = gmsh.view.getHomogeneousModelData(view, 0)
@@ -111,6 +116,7 @@ def msh(path):
         "cells": cells,
         "sizes": sizes,
         "groups": groups,
+        "names": names,
         "views": views,
     }
 

@@ -177,6 +177,16 @@ pub enum WriteError {
         /// One past its last triangle.
         end: u32,
     },
+    /// Groups of cells must be of dimension 2 or 3, with a field, dimension and tag of their own.
+    #[error("group {group} ({name:?}) {why}")]
+    CellGroup {
+        /// Index of the group.
+        group: usize,
+        /// Its name.
+        name: String,
+        /// What is wrong with it.
+        why: &'static str,
+    },
     /// There must be no colours, or one a triangle.
     #[error("{colors} triangle colours for {triangles} triangles")]
     Colors {
@@ -236,7 +246,7 @@ pub enum WriteError {
     /// A tag that the format cannot hold.
     #[error("{place} {number} has the tag {tag}, beyond 0 to {limit}")]
     Tag {
-        /// `vertex` or `cell`.
+        /// `vertex`, `cell` or `group`.
         place: &'static str,
         /// Its number.
         number: usize,

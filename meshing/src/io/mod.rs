@@ -21,6 +21,7 @@
 //! \[Geuzaine09\] (MSH), \[Frey01\] (MEDIT). One pass, linear time, except polygons that are not convex.
 
 mod builder;
+mod cell_group;
 mod data_field;
 mod error;
 mod medit;
@@ -41,6 +42,7 @@ mod vtk;
 mod vtu;
 mod words;
 
+pub use cell_group::CellGroup;
 pub use data_field::{DataField, FieldValues};
 pub use error::{Place, ReadError, WriteError};
 pub use medit::{MeditOptions, read_medit, write_medit};
@@ -229,9 +231,14 @@ pub enum Dropped {
         /// Number of groups lost.
         count: usize,
     },
-    /// Names with line ends or white space at their ends were written with spaces or without.
+    /// Names with characters that the format cannot hold, or too long for it, were written with others or cut.
     GroupNames {
         /// Number of names changed.
+        count: usize,
+    },
+    /// The format has no names for tags, or none for these: the tags of the groups are in the file, their names are not.
+    NamesOfTags {
+        /// Number of names lost.
         count: usize,
     },
     /// The format has no triangle colours.
@@ -301,6 +308,7 @@ impl fmt::Display for Dropped {
         match self {
             Self::Groups { count } => write!(f, "{count} groups not written"),
             Self::GroupNames { count } => write!(f, "{count} group names changed"),
+            Self::NamesOfTags { count } => write!(f, "names of {count} groups not written"),
             Self::TriangleColors { count } => write!(f, "{count} triangle colours not written"),
             Self::CoordinatePrecision { vertices } => {
                 write!(f, "coordinates of {vertices} vertices rounded to single precision")

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::WriteError;
+use super::cell_group::{CellGroup, check_groups};
 use super::data_field::{DataField, check_fields};
 use crate::DVec3;
 
@@ -86,6 +87,8 @@ pub struct VolumeData {
     pub point_fields: Vec<DataField<'static>>,
     /// Numbers on the cells.
     pub cell_fields: Vec<DataField<'static>>,
+    /// Names for cells of a tag.
+    pub groups: Vec<CellGroup>,
 }
 
 impl VolumeData {
@@ -113,6 +116,7 @@ impl VolumeData {
             triangles: &self.triangles,
             point_fields: &self.point_fields,
             cell_fields: &self.cell_fields,
+            groups: &self.groups,
             ..VolumeView::new(self.positions.len(), &position)
         })
     }
@@ -157,6 +161,8 @@ pub struct VolumeView<'a> {
     pub point_fields: &'a [DataField<'a>],
     /// Numbers on the cells, in the order of [`VolumeData`].
     pub cell_fields: &'a [DataField<'a>],
+    /// Names for cells of a tag.
+    pub groups: &'a [CellGroup],
 }
 
 impl fmt::Debug for VolumeView<'_> {
@@ -180,6 +186,7 @@ impl<'a> VolumeView<'a> {
             triangles: &[],
             point_fields: &[],
             cell_fields: &[],
+            groups: &[],
         }
     }
 
@@ -221,7 +228,7 @@ impl<'a> VolumeView<'a> {
         }
     }
 
-    /// Counts within 32 bits, indices in range, fields that fit.
+    /// Counts within 32 bits, indices in range, fields and groups that fit.
     pub(super) fn check(&self) -> Result<(), WriteError> {
         let limit = u64::from(u32::MAX);
         for (what, count) in [("vertices", self.vertices), ("cells", self.cell_count())] {
@@ -238,7 +245,8 @@ impl<'a> VolumeView<'a> {
             }
         }
         check_fields(self.point_fields, self.vertices)?;
-        check_fields(self.cell_fields, self.cell_count())
+        check_fields(self.cell_fields, self.cell_count())?;
+        check_groups(self.groups)
     }
 }
 

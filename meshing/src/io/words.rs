@@ -71,6 +71,12 @@ impl<R: Read> Words<R> {
         Ok(true)
     }
 
+    /// What is left of the line in work, taken.
+    pub(super) fn take_rest(&mut self) -> &[u8] {
+        let from = std::mem::replace(&mut self.taken, self.line.len());
+        self.line[from..].trim_ascii()
+    }
+
     /// The next line that holds a word, without the white space at its ends; none at the end of the file.
     pub(super) fn filled_line(&mut self) -> Result<Option<&[u8]>, ReadError> {
         if self.rest_of_line().is_empty() && !self.begin_line()? {

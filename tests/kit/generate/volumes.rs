@@ -2,7 +2,7 @@
 
 use crate::entropy::Entropy;
 use glam::DVec3;
-use welter_meshing::io::{DataField, FieldValues, VolumeData};
+use welter_meshing::io::{CellGroup, DataField, FieldValues, VolumeData};
 
 /// A number of any bits, or one of the corner cases; finite unless `any`.
 fn number(entropy: &mut Entropy<'_>, any: bool) -> f64 {
@@ -38,7 +38,24 @@ fn fields(entropy: &mut Entropy<'_>, places: usize, any: bool) -> Vec<DataField<
     (0..count).map(draw).collect()
 }
 
-/// A mesh of any cells and fields; with infinities and NaN if `any`. Cells have a field `body` of the numbers from 0 to 3.
+/// Groups of some of the tags of `body`, and of some that no cell has. Names are all different, also without what formats cannot hold.
+fn groups(entropy: &mut Entropy<'_>) -> Vec<CellGroup> {
+    let long = "ö, ".repeat(70);
+    let names =
+        ["x", "two  words ", "Ärmel <a & 'b'>", "in \"quotes\"", "line\nend\t", &long, "", "]]>\\0 #$End"];
+    let mut groups = Vec::new();
+    for (name, k) in names.into_iter().zip(0..) {
+        if entropy.below(3) == 0 {
+            // All different: three dimensions and tags, and then others.
+            let (dimension, tag) = (2 + k % 2, 1 + k as i32 / 2 * if k > 5 { 70_000_000 } else { 1 });
+            groups.push(CellGroup { name: name.to_owned(), field: "body".to_owned(), dimension, tag });
+        }
+    }
+    groups
+}
+
+/// A mesh of any cells, fields and groups; with infinities and NaN if `any`. Cells have a field `body` of the numbers from 0 to 3, to
+/// which the groups belong.
 #[must_use]
 pub fn volume_data(entropy: &mut Entropy<'_>, any: bool) -> VolumeData {
     let vertices = entropy.below(12);
@@ -57,10 +74,12 @@ pub fn volume_data(entropy: &mut Entropy<'_>, any: bool) -> VolumeData {
     data.cell_fields = fields(entropy, cells, any);
     let bodies: Vec<i32> = (0..cells).map(|_| i32::from(entropy.below(4))).collect();
     data.cell_fields.push(DataField::new("body", 1, bodies));
+    data.groups = groups(entropy);
     data
 }
 
-/// Four hexahedra side by side, two tetrahedra on top, and some of the surface; every cell of positive size, every kind of field.
+/// Four hexahedra side by side, two tetrahedra on top, and some of the surface; every cell of positive size, every kind of field, and
+/// names for some of its tags.
 /// The coordinates are no short binary fractions.
 #[must_use]
 pub fn stacked_cells() -> VolumeData {
@@ -81,6 +100,12 @@ pub fn stacked_cells() -> VolumeData {
         std::array::from_fn(|c| node(n % 2 + (c as u32 & 1), n / 2 + (c as u32 >> 1 & 1), c as u32 >> 2))
     };
     let (vertices, cells) = (positions.len(), 10);
+    let group = |name: &str, dimension, tag| CellGroup {
+        name: name.to_owned(),
+        field: "body".to_owned(),
+        dimension,
+        tag,
+    };
     VolumeData {
         positions,
         hexahedra: (0..4).map(cell).collect(),
@@ -106,5 +131,6 @@ pub fn stacked_cells() -> VolumeData {
             DataField::new("flag", 1, (0..cells as u8).map(|c| 200 + c).collect::<Vec<_>>()),
             DataField::new("direction", 3, (0..3 * cells).map(|c| f64::from(c) / 11.0).collect::<Vec<_>>()),
         ],
+        groups: vec![group("steel", 3, 1), group("Ärmel, <links>", 3, 3), group("in 'let' #2", 2, 6)],
     }
 }

@@ -57,7 +57,7 @@ fn vtu_of_every_cell_type_and_number_type() {
     assert_eq!(field(&mesh.cell_fields, "b"), &FieldValues::from(vec![3_i64, 4, 7, 8, 1, 2]));
     let FieldValues::Float64(c) = field(&mesh.point_fields, "c") else { panic!("real numbers") };
     assert_eq!(c[7], 0.1);
-    assert_eq!(ignored(&report), [("other XML elements", 1), ("wedges", 1), ("point cells", 1)]);
+    assert_eq!(ignored(&report), [("field data", 1), ("wedges", 1), ("point cells", 1)]);
 }
 
 #[test]
@@ -88,9 +88,47 @@ fn vtu_big_endian_and_appended_base64() {
 }
 
 #[test]
+fn vtu_groups_among_other_field_data() {
+    let array =
+        |kind: &str, name: &str, rest: &str| format!("<DataArray type=\"{kind}\" Name=\"{name}\" {rest}");
+    let field_data = [
+        array("Int32", "tag:in &amp; out", "format=\"appended\" offset=\"0\"/>"),
+        array("UInt8", "gmsh:physical:a:b", "format=\"ascii\">7 3 9 2 7 3</DataArray>"),
+        // Of no field on cells, of real numbers, of other dimensions, not in pairs, without a name of a field, text.
+        array("Int32", "other:a", "format=\"ascii\">1 2</DataArray>"),
+        array("Float64", "tag:b", "format=\"ascii\">1 2</DataArray>"),
+        array("Int32", "tag:c", "format=\"ascii\">2 1</DataArray>"),
+        array("Int32", "tag:d", "format=\"ascii\">2</DataArray>"),
+        array("Int32", "tags", "format=\"ascii\">5 2</DataArray>"),
+        array("String", "tag:e", "format=\"ascii\">97 0</DataArray>"),
+    ];
+    let fields =
+        ["tag", "gmsh:physical", "gmsh"].map(|name| array("Int32", name, "format=\"ascii\"></DataArray>"));
+    let mut file = format!(
+        "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><FieldData>{}</FieldData>\
+         <Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><CellData>{}</CellData><Points>\
+         <DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\"></DataArray></Points></Piece>\
+         </UnstructuredGrid><AppendedData encoding=\"raw\">_",
+        field_data.concat(),
+        fields.concat()
+    )
+    .into_bytes();
+    file.extend([8, 7 + 256, 2].map(u32::to_le_bytes).as_flattened());
+    file.extend(b"</AppendedData></VTKFile>");
+    let (mesh, report) = read_vtu(&file[..], &Limits::default()).unwrap();
+    let groups: Vec<_> = mesh.groups.iter().map(|g| (&*g.name, &*g.field, g.dimension, g.tag)).collect();
+    assert_eq!(
+        groups,
+        [("in & out", "tag", 2, 263), ("a:b", "gmsh:physical", 3, 7), ("a:b", "gmsh:physical", 2, 9)]
+    );
+    assert_eq!(ignored(&report), [("field data", 6), ("further names of a tag", 1)]);
+}
+
+#[test]
 fn msh_with_gaps_and_mixed_elements() {
     let file = b"$Comments\nby hand\n$EndComments\n$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
-        $PhysicalNames\n1\n3 1 \"steel\"\n$EndPhysicalNames\n\
+        $PhysicalNames\n6\n3 6 \"steel\"\n2 4   \"a \"b\" c \" \n1 1 \"edge\"\n3 6 \"iron\"\n2 0 \"no tag\"\n3 9 \"\"\n\
+        $EndPhysicalNames\n\
         $Nodes\n5\n10 0 0 0\n3 1 0 0\n7 0 1 0\n100 0 0 1\n1 9 9 9\n$EndNodes\n\
         $Elements\n4\n5 15 2 0 1 10\n9 2 2 4 8 10 3 7\n2 4 3 6 8 77 10 3 7 100\n3 1 2 0 1 10 3\n$EndElements\n\
         $NodeData\n2\n\"t\"\n\"scheme\"\n1\n0.5\n4\n0\n1\n3\n0\n100 1\n10 2\n3 3\n$EndNodeData\n\
@@ -100,6 +138,9 @@ fn msh_with_gaps_and_mixed_elements() {
     assert_eq!((&mesh.tetrahedra[..], &mesh.triangles[..]), (&[[0, 1, 2, 3]][..], &[[0, 1, 2]][..]));
     assert_eq!(field(&mesh.cell_fields, "gmsh:physical"), &FieldValues::from(vec![6, 4]));
     assert_eq!(field(&mesh.cell_fields, "gmsh:geometrical"), &FieldValues::from(vec![8, 8]));
+    let groups: Vec<_> = mesh.groups.iter().map(|g| (&*g.name, &*g.field, g.dimension, g.tag)).collect();
+    let physical = "gmsh:physical";
+    assert_eq!(groups, [("steel", physical, 3, 6), ("a \"b\" c ", physical, 2, 4), ("", physical, 3, 9)]);
     assert_eq!(field(&mesh.cell_fields, "v"), &FieldValues::from(vec![2.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
     let FieldValues::Float64(t) = field(&mesh.point_fields, "t") else { panic!("real numbers") };
     assert_eq!(t[..2], [2.0, 3.0]);
@@ -107,7 +148,9 @@ fn msh_with_gaps_and_mixed_elements() {
     assert_eq!(
         ignored(&report),
         [
-            ("`$PhysicalNames`", 1),
+            ("names of points and curves", 1),
+            ("further names of a tag", 1),
+            ("names of tags that cells cannot have", 1),
             ("point elements", 1),
             ("further tags of elements", 1),
             ("line elements", 1),

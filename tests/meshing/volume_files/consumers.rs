@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use welter_kit::generate::volumes::stacked_cells;
 use welter_meshing::grid::Grid3;
-use welter_meshing::io::{DataArray, DataField, FieldValues, MshVersion, VolumeData, VtkEncoding, write_vti};
+use welter_meshing::io::{
+    CellGroup, DataArray, DataField, FieldValues, MshVersion, VolumeData, VtkEncoding, write_vti,
+};
 
 /// The corners of a hexahedron in the order of VTK, Gmsh and MEDIT, after their pictures of it.
 const AROUND: [usize; 8] = [0b000, 0b001, 0b011, 0b010, 0b100, 0b101, 0b111, 0b110];
@@ -102,6 +104,15 @@ fn check_field(found: &Value, field: &DataField<'_>, as_real: bool, context: &st
     }
 }
 
+/// The tag and dimension of each group by its name, behind a prefix.
+fn named_pairs(mesh: &VolumeData, prefix: &str) -> Value {
+    let pair = |group: &CellGroup| {
+        (format!("{prefix}{}", group.name), serde_json::json!([group.tag, group.dimension]))
+    };
+    assert!(mesh.groups.len() > 2);
+    Value::Object(mesh.groups.iter().map(pair).collect())
+}
+
 fn check_meshio(form: Form, mesh: &VolumeData, found: &Value) {
     assert_eq!(integers(&found["points"]["values"]), position_bits(mesh), "{form:?}");
     let mut blocks = found["cells"].as_array().unwrap().iter().peekable();
@@ -124,6 +135,9 @@ fn check_meshio(form: Form, mesh: &VolumeData, found: &Value) {
     if form == Form::Medit {
         return;
     }
+    // Tag and dimension by name, as meshio has them of MSH.
+    let prefix = if matches!(form, Form::Vtu(_)) { "body:" } else { "" };
+    assert_eq!(found["field_data"], named_pairs(mesh, prefix), "{form:?}");
     let as_real = matches!(form, Form::Msh(..));
     for field in &mesh.point_fields {
         check_field(&found["point_data"][&*field.name], field, as_real, &context(&field.name));
@@ -187,8 +201,10 @@ fn check_vtu(mesh: &VolumeData, found: &Value, context: &str) {
     all_positive(&found["sizes"], types.len(), context);
     check_arrays(&found["point_data"], &mesh.point_fields, context);
     check_arrays(&found["cell_data"], &mesh.cell_fields, context);
-    let mut names: Vec<&str> =
-        mesh.point_fields.iter().chain(&mesh.cell_fields).map(|field| &*field.name).collect();
+    assert_eq!(found["pyvista_groups"], named_pairs(mesh, "body:"), "{context}");
+    let fields = mesh.point_fields.iter().chain(&mesh.cell_fields).map(|field| field.name.to_string());
+    let groups = mesh.groups.iter().map(|group| format!("body:{}", group.name));
+    let mut names: Vec<String> = fields.chain(groups).collect();
     names.sort_unstable();
     assert_eq!(found["pyvista"], serde_json::json!([mesh.positions.len(), types.len(), names]), "{context}");
 }
@@ -212,6 +228,9 @@ fn check_gmsh(mesh: &VolumeData, found: &Value, context: &str) {
         *members = range.iter().filter(|t| t.to_string() == tag).count().into();
     }
     assert_eq!(found["groups"], groups, "{context}");
+    let names: serde_json::Map<_, _> =
+        mesh.groups.iter().map(|g| (format!("{} {}", g.dimension, g.tag), g.name.clone().into())).collect();
+    assert_eq!(found["names"], Value::Object(names), "{context}");
     assert_eq!(expected, groups, "{context}");
     let views = found["views"].as_object().unwrap();
     assert_eq!(views.len(), mesh.point_fields.len() + mesh.cell_fields.len() - 1, "{context}");

@@ -311,6 +311,37 @@ fn msh_says_the_line() {
 }
 
 #[test]
+fn names_of_groups_say_their_line() {
+    let read = |body: &str| {
+        let head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n";
+        message(read_msh(
+            format!("{head}{body}$Nodes\n0\n$EndNodes\n$Elements\n0\n$EndElements\n").as_bytes(),
+            &Limits::default(),
+        ))
+    };
+    for (body, expected) in [
+        ("1\n2 7 \"a\"\n$EndPhysicalNames\n", "no error"),
+        ("x\n", "line 5: expected the number of names of physical groups, found `x`"),
+        (
+            "1\n4 7 \"a\"\n",
+            "line 6: expected the dimension, from 0 to 3, of name 1 of the 1 declared, found 4",
+        ),
+        ("1\n-2 7 \"a\"\n", "line 6: expected the dimension of name 1 of the 1 declared, found -2"),
+        ("1\n2 \"a\"\n", "line 6: expected the physical tag of name 1 of the 1 declared, found `\\\"a\\\"`"),
+        ("1\n2 7 a\n", "line 6: expected the quoted text of name 1 of the 1 declared, found `a`"),
+        ("1\n2 7 \"\n", "line 6: expected the quoted text of name 1 of the 1 declared, found `\\\"`"),
+        ("2\n2 7 \"a\"\n", "line 7: expected the dimension of name 2 of the 2 declared, found `$Nodes`"),
+        ("0\n2 7 \"a\"\n", "line 6: expected `$EndPhysicalNames`, found `2 7 \\\"a\\\"`"),
+        (
+            "0\n$EndPhysicalNames\n$PhysicalNames\n",
+            "line 7: expected one section `$PhysicalNames`, found `$PhysicalNames`",
+        ),
+    ] {
+        assert_eq!(read(body), expected, "{body}");
+    }
+}
+
+#[test]
 fn medit_says_the_line() {
     const HEAD: &str = "MeshVersionFormatted 2\nDimension 3\n";
     let read = |file: &str| message(read_medit(file.as_bytes(), &Limits::default()));

@@ -5,8 +5,8 @@ use welter_kit::entropy::{Entropy, stream};
 use welter_kit::generate::volumes::{stacked_cells, volume_data};
 use welter_meshing::DVec3;
 use welter_meshing::io::{
-    DataField, Dropped, Encoding, FieldLoss, FieldValues, MeditOptions, MshOptions, VolumeData, VolumeView,
-    VtkEncoding, WriteError, write_medit, write_msh, write_vtu,
+    CellGroup, DataField, Dropped, Encoding, FieldLoss, FieldValues, MeditOptions, MshOptions, VolumeData,
+    VolumeView, VtkEncoding, WriteError, write_medit, write_msh, write_vtu,
 };
 
 /// A field as f64.
@@ -46,6 +46,23 @@ fn kept_by_msh(fields: &[DataField<'static>], lost: &mut Vec<Dropped>) -> Vec<Da
     kept
 }
 
+/// What MSH keeps of groups of the field `body`, whose names are all different, with what it loses.
+fn groups_kept_by_msh(groups: &[CellGroup], lost: &mut Vec<Dropped>) -> Vec<CellGroup> {
+    let (mut kept, mut changed) = (Vec::new(), 0);
+    for group in groups.iter().filter(|group| !group.name.is_empty()) {
+        let mut name = group.name.replace('"', "'").replace(['\n', '\t'], " ");
+        while name.len() > 127 {
+            name.pop();
+        }
+        changed += usize::from(name != group.name);
+        kept.push(CellGroup { name, field: "gmsh:physical".to_owned(), ..group.clone() });
+    }
+    lost.extend((changed > 0).then_some(Dropped::GroupNames { count: changed }));
+    let count = groups.len() - kept.len();
+    lost.extend((count > 0).then_some(Dropped::NamesOfTags { count }));
+    kept
+}
+
 /// What a form keeps of a mesh whose field `body` is its tags, and what the report must name.
 fn kept(form: Form, mesh: &VolumeData) -> (VolumeData, Vec<Dropped>) {
     let (mut kept, mut lost) = (mesh.clone(), Vec::new());
@@ -56,21 +73,34 @@ fn kept(form: Form, mesh: &VolumeData) -> (VolumeData, Vec<Dropped>) {
     let renamed = Dropped::Field { name: "body".to_owned(), loss: FieldLoss::Renamed };
     let as_tags = |name: &'static str| tagged.then(|| DataField::new(name, 1, tags.to_vec()));
     match form {
-        Form::Vtu(_) => {}
+        Form::Vtu(_) => {
+            let with_control = |group: &&mut CellGroup| group.name.contains(char::is_control);
+            let mut count = 0;
+            for group in kept.groups.iter_mut().filter(with_control) {
+                group.name = group.name.replace(['\n', '\t'], " ");
+                count += 1;
+            }
+            lost.extend((count > 0).then_some(Dropped::GroupNames { count }));
+        }
         Form::Msh(..) => {
             kept.point_fields = kept_by_msh(&mesh.point_fields, &mut lost);
             kept.cell_fields = as_tags("gmsh:physical").into_iter().collect();
             kept.cell_fields.extend(kept_by_msh(others, &mut lost));
             lost.push(renamed);
+            kept.groups = groups_kept_by_msh(&mesh.groups, &mut lost);
         }
         Form::Medit => {
             kept.point_fields.clear();
+            kept.groups.clear();
             kept.cell_fields = as_tags("medit:ref").into_iter().collect();
             let all = mesh.point_fields.iter().chain(others);
             lost.extend(
                 all.map(|f| Dropped::Field { name: f.name.to_string(), loss: FieldLoss::Everything }),
             );
             lost.push(renamed);
+            lost.extend(
+                (!mesh.groups.is_empty()).then_some(Dropped::NamesOfTags { count: mesh.groups.len() }),
+            );
         }
     }
     (kept, lost)
@@ -87,6 +117,11 @@ fn check(form: Form, mesh: &VolumeData) {
     let tags = back.cell_fields.first().map(|field| field.name.to_string());
     let tags = tags.filter(|name| matches!(name.as_str(), "gmsh:physical" | "medit:ref"));
     let (again, report) = form.write(&back, tags.as_deref()).unwrap();
+    if matches!(form, Form::Msh(..)) && tags.is_none() && !back.groups.is_empty() {
+        // No cell has a tag, so there is no field of them to which names could belong.
+        assert_eq!(report.dropped, [Dropped::NamesOfTags { count: back.groups.len() }], "{form:?}");
+        return;
+    }
     assert!(
         again == file || form == Form::Vtu(VtkEncoding::Ascii) && text(&back).contains("NaN"),
         "{form:?}"

@@ -1,7 +1,7 @@
 //! What is made of a surface: the volumetric mesh, as hexahedra or tetrahedra, and its boundary.
 
 use super::groups::Groups;
-use welter_meshing::io::DataField;
+use welter_meshing::io::{CellGroup, DataField};
 use welter_meshing::surface::ClosedOrientedMesh;
 use welter_meshing::volumetric::{Tetrahedra, VolumeMesh, boundary_sides};
 use welter_meshing::{Cancelled, DVec3, Monitor};
@@ -55,6 +55,18 @@ impl Product {
     }
 }
 
+/// The names of the tags: of components, and of the groups of the surface.
+fn names_of_tags(product: &Product, groups: &Groups) -> Vec<CellGroup> {
+    let components = product.components.iter().max().map_or(0, |&last| last as usize + 1);
+    let named = |dimension, name: String, number: usize| {
+        let tag = i32::try_from(number).unwrap_or(i32::MAX);
+        CellGroup { name, field: TAGS.to_owned(), dimension, tag }
+    };
+    let solids = (1..=components).map(|number| named(3, format!("component {number}"), number));
+    let faces = groups.names.iter().zip(1..).map(|(name, number)| named(2, name.clone(), number));
+    solids.chain(faces).collect()
+}
+
 /// The field of tags: of cells the component, of faces the group, both from 1 on.
 pub(super) const TAGS: &str = "tag";
 
@@ -67,6 +79,8 @@ pub(crate) struct Boundary {
     hexahedra: Vec<u32>,
     /// The group of the surface at each face, from 1 on.
     pub(super) tags: Vec<i32>,
+    /// What the tags stand for, also those of cells.
+    pub(super) names: Vec<CellGroup>,
 }
 
 impl Boundary {
@@ -78,7 +92,7 @@ impl Boundary {
         monitor: &Monitor<'_>,
     ) -> Result<Self, Cancelled> {
         let mesh = &product.volume.mesh;
-        let mut boundary = Self::default();
+        let mut boundary = Self { names: names_of_tags(product, groups), ..Self::default() };
         for side in boundary_sides(mesh, monitor)? {
             let corners = side.vertices.map(|vertex| mesh.position(vertex));
             let middle = (corners[0] + corners[1] + corners[2] + corners[3]) * 0.25;

@@ -88,6 +88,7 @@ impl VolumeWriting {
             quadrilaterals: &boundary.quadrilaterals,
             triangles: &boundary.triangles,
             cell_fields: &fields,
+            groups: &boundary.names,
             ..VolumeView::new(product.vertex_count(), &position)
         };
         let tags = (!boundary.tags.is_empty()).then_some(TAGS);

@@ -6,7 +6,7 @@
 //! * Malformed input is a [`ReadError`] with the line. Memory is proportional to the data that arrived.
 //!
 //! # What it does not promise
-//! Fields: the format has one integer for each vertex and cell, its reference, and no other. Sections other than vertices, hexahedra,
+//! Fields: the format has one integer for each vertex and cell, its reference, and no other; and no names for references. Sections other than vertices, hexahedra,
 //! tetrahedra, quadrilaterals and triangles are passed over and reported. Binary files (`.meshb`) are not read.
 //!
 //! # Method
@@ -18,7 +18,7 @@ mod write;
 use std::io::{Read, Write};
 
 use super::data_field::DataField;
-use super::{Limits, ReadError, ReadReport, VolumeData, VolumeView, WriteError, WriteReport};
+use super::{Dropped, Limits, ReadError, ReadReport, VolumeData, VolumeView, WriteError, WriteReport};
 
 /// The name of the fields that hold references when read.
 pub(super) const REFERENCE: &str = "medit:ref";
@@ -32,7 +32,8 @@ pub struct MeditOptions<'a> {
     pub cell_references: Option<&'a str>,
 }
 
-/// Writes a volumetric mesh as MEDIT text. Fields other than the references are dropped, and the report names them.
+/// Writes a volumetric mesh as MEDIT text. Fields other than the references and names of groups are dropped, and the
+/// report names them.
 ///
 /// `output` gets many small writes: wrap a file in a `BufWriter`.
 ///
@@ -65,7 +66,11 @@ pub fn write_medit(
     let cells = references(mesh.cell_fields, options.cell_references, "cell")?;
     write::write(&mut output, mesh, vertices, cells)?;
     output.flush()?;
-    Ok(WriteReport { dropped: write::dropped(mesh, vertices, cells) })
+    let mut dropped = write::dropped(mesh, vertices, cells);
+    if !mesh.groups.is_empty() {
+        dropped.push(Dropped::NamesOfTags { count: mesh.groups.len() });
+    }
+    Ok(WriteReport { dropped })
 }
 
 /// The field that holds references.

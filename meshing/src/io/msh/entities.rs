@@ -6,7 +6,7 @@ use crate::DVec3;
 use crate::io::{CellKind, FieldValues, VolumeView, WriteError};
 
 /// The largest tag: one number is left for an entity of the cells without.
-const LARGEST: i64 = i32::MAX as i64 - 1;
+pub(super) const LARGEST: i64 = i32::MAX as i64 - 1;
 
 /// The tags of the cells of a mesh.
 pub(super) struct Tags<'a> {

@@ -2,7 +2,7 @@
 //!
 //! # What it promises
 //! * Written and read again, positions and cells are the same bit for bit (in text NaN loses its payload), and so are fields of real
-//!   numbers with 1, 3 or 9 components, and tags.
+//!   numbers with 1, 3 or 9 components, and tags with their names.
 //! * The same bytes for the same mesh. Nothing is written before it is checked, and the file is never held in memory.
 //! * Reading takes both byte orders, node and element numbers in any order and with gaps, and cells in any order of kinds. Lines, points,
 //!   prisms, pyramids and cells of higher order are passed over and reported, and so are sections that hold no mesh.
@@ -10,10 +10,11 @@
 //!
 //! # What it does not promise
 //! * Integer types: data in this format are f64. The report of the writer names each field that changes.
+//! * Names of more than 127 bytes, with quotation marks or control characters: they are written shortened or with others, no two alike.
 //! * The surfaces, curves and points that bound a volume: entities are written without their boundary, and all nodes stand in one of them.
 //!
 //! # Method
-//! Tags become physical groups. Cells of a tag belong to an entity of the same number, cells of tag 0 to the first entity that has no tag.
+//! Tags become physical groups, of the names of the mesh's groups. Cells of a tag belong to an entity of the same number, cells of tag 0 to the first entity that has no tag.
 //! Version 4.1 keeps entities in a section of their own and cells in blocks of one entity: each run of cells of one kind and tag is a
 //! block. Linear time, but for sorting numbers with gaps: O(n log n).
 
@@ -21,6 +22,7 @@ mod data;
 mod entities;
 mod ids;
 mod input;
+mod names;
 mod output;
 mod read;
 mod read_data;
@@ -72,8 +74,8 @@ impl Default for MshOptions<'_> {
 /// `output` gets many small writes: wrap a file in a `BufWriter`.
 ///
 /// # Errors
-/// [`WriteError::Corner`], [`WriteError::ArrayLength`], [`WriteError::ArrayName`], [`WriteError::NoTags`], [`WriteError::Tag`],
-/// [`WriteError::TooMany`], or the writer failed.
+/// [`WriteError::Corner`], [`WriteError::ArrayLength`], [`WriteError::ArrayName`], [`WriteError::CellGroup`], [`WriteError::NoTags`],
+/// [`WriteError::Tag`], [`WriteError::TooMany`], or the writer failed.
 ///
 /// ```
 /// use welter_meshing::{DVec3, io::{DataField, Encoding, Limits, MshOptions, MshVersion, VolumeData, read_msh, write_msh}};
@@ -102,11 +104,13 @@ pub fn write_msh(
     if options.version == MshVersion::V2 {
         write_two::check(mesh)?;
     }
-    let dropped = data::dropped(mesh, options.tags);
+    let names = names::Names::new(mesh.groups, options.tags)?;
+    let mut dropped = data::dropped(mesh, options.tags);
+    dropped.extend(names.dropped());
     let mut out = output::Output::new(&mut output, options.encoding);
     match options.version {
-        MshVersion::V2 => write_two::write(&mut out, mesh, &tags)?,
-        MshVersion::V4 => write_four::write(&mut out, mesh, &tags)?,
+        MshVersion::V2 => write_two::write(&mut out, mesh, &tags, &names)?,
+        MshVersion::V4 => write_four::write(&mut out, mesh, &tags, &names)?,
     }
     write_data::write(&mut out, mesh, options.tags)?;
     output.flush()?;
@@ -117,6 +121,7 @@ pub fn write_msh(
 ///
 /// Physical tags that are not all 0 become the field `gmsh:physical` on cells, the first where there are several. Numbers of entities
 /// become the field `gmsh:geometrical` where they say more: where one is not the physical tag, or where cells without tag are of several.
+/// Names of physical groups become groups of the field `gmsh:physical`.
 /// Of data with several time steps the first is read. Places without a value are NaN, if at least one in 16 has one.
 ///
 /// `input` is read to its end in large blocks and needs no buffer of its own.

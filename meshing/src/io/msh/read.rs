@@ -6,7 +6,7 @@ use std::io::Read;
 use super::ids::{Numbering, Places};
 use super::input::Input;
 use super::read_data::Data;
-use super::{GEOMETRICAL, PHYSICAL, read_data, read_four, read_two};
+use super::{GEOMETRICAL, PHYSICAL, names, read_data, read_four, read_two};
 use crate::DVec3;
 use crate::io::error::{Place, ReadError, shown};
 use crate::io::source::Source;
@@ -17,8 +17,7 @@ use super::types::ElementType;
 
 const EXPECTED: &str = "an MSH file of Gmsh";
 /// Sections that are passed over under their own name.
-const PASSED_OVER: [&str; 7] = [
-    "PhysicalNames",
+const PASSED_OVER: [&str; 6] = [
     "PartitionedEntities",
     "Periodic",
     "GhostElements",
@@ -32,6 +31,8 @@ pub(super) struct Reader {
     pub(super) builder: VolumeBuilder,
     /// The physical tag of each entity, by dimension and number.
     pub(super) entities: BTreeMap<(i32, i32), i32>,
+    /// Whether names of physical groups were read.
+    named: bool,
     pub(super) nodes: Option<Places>,
     pub(super) elements: Option<Numbering>,
     /// The physical tag and the entity of each element.
@@ -48,6 +49,7 @@ pub(super) fn read(input: impl Read, limits: &Limits) -> Result<(VolumeData, Rea
     let mut reader = Reader {
         builder: VolumeBuilder::new(limits),
         entities: BTreeMap::new(),
+        named: false,
         nodes: None,
         elements: None,
         tags: Vec::new(),
@@ -116,6 +118,11 @@ impl Reader {
     fn section<R: Read>(&mut self, input: &mut Input<R>, name: &str, four: bool) -> Result<(), ReadError> {
         let at = input.line_place();
         match name {
+            "PhysicalNames" => {
+                self.once(self.named, "$PhysicalNames", at)?;
+                self.named = true;
+                names::read(input, &mut self.builder)?;
+            }
             "Entities" if four => read_four::entities(input, self)?,
             "Nodes" => {
                 self.once(self.nodes.is_some(), "$Nodes", at)?;

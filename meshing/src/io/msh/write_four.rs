@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::ops::Range;
 
 use super::entities::{Entity, Tags};
+use super::names::Names;
 use super::output::Output;
 use super::types;
 use crate::io::volume_data::in_file_order;
@@ -14,9 +15,11 @@ pub(super) fn write<W: Write>(
     out: &mut Output<'_, W>,
     mesh: &VolumeView<'_>,
     tags: &Tags<'_>,
+    names: &Names<'_>,
 ) -> io::Result<()> {
     let entities = tags.entities(mesh);
     out.format("4.1")?;
+    names.write(out)?;
     write_entities(out, &entities)?;
     write_nodes(out, mesh, &entities)?;
     write_elements(out, mesh, tags)

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::entities::Tags;
+use super::names::Names;
 use super::output::Output;
 use super::types;
 use crate::io::volume_data::in_file_order;
@@ -23,8 +24,10 @@ pub(super) fn write<W: Write>(
     out: &mut Output<'_, W>,
     mesh: &VolumeView<'_>,
     tags: &Tags<'_>,
+    names: &Names<'_>,
 ) -> io::Result<()> {
     out.format("2.2")?;
+    names.write(out)?;
     out.line("$Nodes")?;
     out.line(&mesh.vertices.to_string())?;
     for vertex in 0..mesh.vertices {

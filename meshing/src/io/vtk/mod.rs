@@ -66,7 +66,7 @@ pub(super) fn write_data(
 }
 
 /// A name as the value of an attribute.
-fn escaped(name: &str) -> String {
+pub(super) fn escaped(name: &str) -> String {
     let mut text = String::with_capacity(name.len());
     for c in name.chars() {
         match c {

@@ -3,7 +3,8 @@
 use std::io::Read;
 
 use super::cells;
-use super::elements::{ArrayReader, skip_element};
+use super::elements::{ArrayReader, DataArrayElement, skip_element};
+use super::groups::FieldData;
 use super::piece::{Piece, each_child};
 use super::xml::{self, Tag};
 use crate::io::error::ReadError;
@@ -26,8 +27,12 @@ pub(super) fn read(input: impl Read, limits: &Limits) -> Result<(VolumeData, Rea
     };
     let arrays = layout(&root)?;
     let mut piece = None;
+    let mut field_data = FieldData::default();
     each_child(source, &root, |source, tag| match tag.name.as_str() {
         "UnstructuredGrid" => each_child(source, tag, |source, child| {
+            if child.name == "FieldData" {
+                return field_data.read(source, child, arrays, &mut builder);
+            }
             if child.name != "Piece" {
                 builder.ignore("other XML elements", child.at);
                 return skip_element(source, child);
@@ -38,7 +43,11 @@ pub(super) fn read(input: impl Read, limits: &Limits) -> Result<(VolumeData, Rea
             piece = Some(Piece::read(source, child, arrays, &mut builder)?);
             Ok(())
         }),
-        "AppendedData" => appended(source, tag, arrays, piece.as_mut()),
+        "AppendedData" => {
+            let mut all = field_data.appended();
+            all.extend(piece.as_mut().map(Piece::appended).unwrap_or_default());
+            appended(source, tag, arrays, all)
+        }
         _ => {
             builder.ignore("other XML elements", tag.at);
             skip_element(source, tag)
@@ -50,6 +59,7 @@ pub(super) fn read(input: impl Read, limits: &Limits) -> Result<(VolumeData, Rea
     }
     let piece = piece
         .ok_or_else(|| ReadError::Truncated { at: source.byte(), expected: "a `<Piece>`".to_owned() })?;
+    field_data.into_groups(&piece.cell_data, &mut builder);
     cells::assemble(piece, builder)
 }
 
@@ -88,7 +98,7 @@ fn appended<R: Read>(
     source: &mut Source<R>,
     tag: &Tag,
     reader: ArrayReader,
-    piece: Option<&mut Piece>,
+    mut arrays: Vec<(u64, &mut DataArrayElement)>,
 ) -> Result<(), ReadError> {
     let base64 = match tag.attribute("encoding").unwrap_or("base64") {
         "raw" => false,
@@ -104,7 +114,6 @@ fn appended<R: Read>(
         return Err(ReadError::unexpected(at, "`_`, the beginning of appended data", first));
     }
     let begin = source.offset();
-    let mut arrays = piece.map(Piece::appended).unwrap_or_default();
     arrays.sort_by_key(|(offset, _)| *offset);
     for (offset, array) in arrays {
         let gap = begin.checked_add(offset).and_then(|from| from.checked_sub(source.offset()));

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use super::groups::GroupArrays;
 use crate::io::volume_data::in_file_order;
 use crate::io::vtk::{self, Array, Numbers, Row, VtkEncoding};
 use crate::io::{CellKind, DataField, FieldValues, VolumeView};
@@ -16,10 +17,16 @@ fn vtk_type(kind: CellKind) -> u8 {
     }
 }
 
-pub(super) fn write(output: &mut impl Write, mesh: &VolumeView<'_>, encoding: VtkEncoding) -> io::Result<()> {
+pub(super) fn write(
+    output: &mut impl Write,
+    mesh: &VolumeView<'_>,
+    groups: &GroupArrays<'_>,
+    encoding: VtkEncoding,
+) -> io::Result<()> {
     let (vertices, cells) = (mesh.vertices, mesh.cell_count());
     vtk::begin(output, "UnstructuredGrid")?;
     writeln!(output, "  <UnstructuredGrid>")?;
+    groups.write(output)?;
     writeln!(output, r#"    <Piece NumberOfPoints="{vertices}" NumberOfCells="{cells}">"#)?;
     let point_data: Vec<_> = mesh.point_fields.iter().map(|field| field_array(field, vertices)).collect();
     let cell_data: Vec<_> = mesh.cell_fields.iter().map(|field| field_array(field, cells)).collect();
