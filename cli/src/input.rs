@@ -1,6 +1,7 @@
 //! Files read: found, opened and checked before the work, then read with progress.
 
 use crate::codes::Code;
+use crate::commands::mesh::VolumeFormat;
 use crate::failure::{Failure, shell_word};
 use crate::machine;
 use crate::numbers;
@@ -69,8 +70,38 @@ pub(crate) fn format_of(path: &Path, option: &str) -> Result<Format, Box<Failure
             .why("the format is known from the extension, and a stream has none")),
         None => Err(failure("the name has no extension".to_owned())
             .why("the format is known from the extension, and there is none")),
-        Some(extension) => {
-            Format::of_extension(&extension).ok_or_else(|| failure(format!("unknown extension .{extension}")))
+        Some(extension) => Format::of_extension(&extension).ok_or_else(|| {
+            if option == "--from" && VolumeFormat::of_extension(&extension).is_some() {
+                return not_a_surface(path);
+            }
+            failure(format!("unknown extension .{extension}"))
+        }),
+    }
+}
+
+/// The failure for a volumetric mesh where a surface is to be read.
+fn not_a_surface(path: &Path) -> Box<Failure> {
+    Failure::new(
+        Code::UnknownFormat,
+        "the extension is that of a volumetric mesh, and a surface is to be read",
+    )
+    .subject(path.display().to_string())
+    .why("only `welter info` and `welter render` take volumetric meshes")
+    .help(format!("welter info {}   # if it holds a surface all the same: --from FORMAT", shell_word(path)))
+}
+
+/// What a file is read as.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kind {
+    Surface(Format),
+    Volume(VolumeFormat),
+}
+
+impl Kind {
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Surface(format) => format.extension(),
+            Self::Volume(format) => format.extension(),
         }
     }
 }
@@ -116,45 +147,65 @@ impl Input {
             return Err(is_directory(name));
         }
         let format = format()?;
-        let file = File::open(name).map_err(|error| cannot_read(name, &error))?;
-        let bytes = meta.is_file().then_some(meta.len());
-        if bytes == Some(0) {
-            return Err(empty(name));
-        }
-        if let (Some(bytes), Some(free)) = (bytes, reading.max_memory.or_else(machine::available_memory)) {
-            let needed = bytes.saturating_mul(memory_per_byte(format));
-            if needed > free {
-                let what = format!(
-                    "reading and indexing it may take {}, and {} {}",
-                    numbers::bytes(needed),
-                    numbers::bytes(free),
-                    if reading.max_memory.is_some() { "are allowed" } else { "are free" }
-                );
-                return Err(Failure::new(Code::OverMemory, what)
-                    .subject(name.display().to_string())
-                    .place(format!("file of {}", numbers::bytes(bytes)))
-                    .help(format!("--max-memory {needed}   # to try all the same")));
-            }
-        }
+        let (file, bytes) = open_file(name, memory_per_byte(format), reading)?;
         Ok(Self { name: name.to_owned(), format, bytes, stream: Stream::File(file) })
     }
 
     /// Reads the surface, and says what the file held besides.
     pub(crate) fn read(self, progress: &Progress) -> Result<(TriangleSoup, ReadReport), Box<Failure>> {
         let total = self.bytes.unwrap_or(0);
-        let reader = Told { stream: self.stream, progress, done: 0, told: 0, total };
+        let reader = Told::new(self.stream, progress, total);
         welter_meshing::io::read_reported(self.format, reader, &Limits::default())
-            .map_err(|error| not_understood(&self.name, self.format, &error))
+            .map_err(|error| not_understood(&self.name, Kind::Surface(self.format), &error))
     }
 }
 
+/// Opens a file, if it has bytes and memory suffices for so many bytes for each of them; also its size, where it is known.
+pub(crate) fn open_file(
+    name: &Path,
+    memory_per_byte: u64,
+    reading: &Reading,
+) -> Result<(File, Option<u64>), Box<Failure>> {
+    let meta = fs::metadata(name).map_err(|error| cannot_read(name, &error))?;
+    if meta.is_dir() {
+        return Err(is_directory(name));
+    }
+    let file = File::open(name).map_err(|error| cannot_read(name, &error))?;
+    let bytes = meta.is_file().then_some(meta.len());
+    if bytes == Some(0) {
+        return Err(empty(name));
+    }
+    if let (Some(bytes), Some(free)) = (bytes, reading.max_memory.or_else(machine::available_memory)) {
+        let needed = bytes.saturating_mul(memory_per_byte);
+        if needed > free {
+            let what = format!(
+                "reading and indexing it may take {}, and {} {}",
+                numbers::bytes(needed),
+                numbers::bytes(free),
+                if reading.max_memory.is_some() { "are allowed" } else { "are free" }
+            );
+            return Err(Failure::new(Code::OverMemory, what)
+                .subject(name.display().to_string())
+                .place(format!("file of {}", numbers::bytes(bytes)))
+                .help(format!("--max-memory {needed}   # to try all the same")));
+        }
+    }
+    Ok((file, bytes))
+}
+
 /// Tells how many bytes were read.
-struct Told<'a, R> {
+pub(crate) struct Told<'a, R> {
     stream: R,
     progress: &'a Progress,
     done: u64,
     told: u64,
     total: u64,
+}
+
+impl<'a, R> Told<'a, R> {
+    pub(crate) fn new(stream: R, progress: &'a Progress, total: u64) -> Self {
+        Self { stream, progress, done: 0, told: 0, total }
+    }
 }
 
 impl<R: Read> Read for Told<'_, R> {
@@ -253,9 +304,9 @@ pub(crate) fn edit_distance(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
-/// The failure for a file whose content could not be read as `format`.
-fn not_understood(name: &Path, format: Format, error: &ReadError) -> Box<Failure> {
-    let word = shell_word(name);
+/// The failure for a file whose content could not be read as what it should be.
+pub(crate) fn not_understood(name: &Path, kind: Kind, error: &ReadError) -> Box<Failure> {
+    let (word, extension) = (shell_word(name), kind.extension());
     let shown = name.display().to_string();
     let again = "write it again with the program it comes from; it may have been cut off while copying";
     let (code, help) = match error {
@@ -263,30 +314,39 @@ fn not_understood(name: &Path, format: Format, error: &ReadError) -> Box<Failure
         ReadError::Encoding { found, .. } if found.starts_with("UTF") => {
             let encoding = found.split(' ').next().unwrap_or("UTF-16");
             let stem = name.file_stem().unwrap_or_default().to_string_lossy();
-            let converted = name.with_file_name(format!("{stem}-utf8.{}", format.extension()));
+            let converted = name.with_file_name(format!("{stem}-utf8.{extension}"));
             (Code::NotUtf8Text, format!("iconv -f {encoding} -t UTF-8 {word} > {}", shell_word(&converted)))
         }
-        ReadError::Encoding { found, .. } if found.contains("gzip") => (
-            Code::UnsupportedContent,
-            format!("gunzip -c {word} | welter check --from {} -", format.extension()),
-        ),
+        ReadError::Encoding { found, .. } if found.contains("gzip") => {
+            let help = match kind {
+                Kind::Surface(_) => format!("gunzip -c {word} | welter check --from {extension} -"),
+                Kind::Volume(_) => format!("gunzip -c {word} > plain.{extension}"),
+            };
+            (Code::UnsupportedContent, help)
+        }
         ReadError::Encoding { .. } => (Code::UnsupportedContent, format!("file {word}   # tells what it is")),
         ReadError::Truncated { .. } => (Code::Truncated, again.to_owned()),
         ReadError::IndexOutOfRange { .. } => {
-            (Code::IndexOutOfRange, "remove the face there, or write the file again".to_owned())
+            (Code::IndexOutOfRange, "remove the face or cell there, or write the file again".to_owned())
         }
         ReadError::Unsupported { .. } => {
-            (Code::UnsupportedContent, "write it as plain triangles or polygons".to_owned())
+            let help = match kind {
+                Kind::Surface(_) => "write it as plain triangles or polygons",
+                Kind::Volume(VolumeFormat::Vtu) => "write it in one piece, without compression",
+                Kind::Volume(_) => "write it as MSH 2.2 or 4.1, or as MEDIT text",
+            };
+            (Code::UnsupportedContent, help.to_owned())
         }
         ReadError::OverLimit { .. } => (Code::OverCount, "split the file into parts".to_owned()),
         ReadError::Io { source, .. } => (
             Code::ReadFailed,
             format!("cp {word} /tmp   # to see whether the disk delivers it: {}", plain(source)),
         ),
-        _ => (
-            Code::Malformed,
-            format!("file {word}   # is it what its extension says? else name the format: --from"),
-        ),
+        _ => {
+            let or_name_it =
+                if matches!(kind, Kind::Surface(_)) { " else name the format: --from" } else { "" };
+            (Code::Malformed, format!("file {word}   # is it what its extension says?{or_name_it}"))
+        }
     };
     let what = match error.place() {
         Some(at) => {
@@ -310,7 +370,7 @@ mod tests {
     #[test]
     fn a_disk_that_does_not_deliver_is_told_with_the_byte() {
         let error = ReadError::Io { offset: 512, source: ErrorKind::TimedOut.into() };
-        let failure = not_understood(Path::new("a.ply"), Format::Ply, &error);
+        let failure = not_understood(Path::new("a.ply"), Kind::Surface(Format::Ply), &error);
         assert_eq!((failure.code, failure.places[0].as_str()), (Code::ReadFailed, "a.ply, byte 512"));
         let code = |kind: ErrorKind| cannot_read(Path::new("a.ply"), &kind.into()).code;
         assert_eq!(code(ErrorKind::TimedOut), Code::ReadFailed);
@@ -322,7 +382,7 @@ mod tests {
         let limits = Limits { max_vertices: 1, ..Limits::default() };
         let text = &b"v 0 0 0\nv 1 0 0\n"[..];
         let error = welter_meshing::io::read(Format::Obj, text, &limits).expect_err("one is allowed");
-        let failure = not_understood(Path::new("a.obj"), Format::Obj, &error);
+        let failure = not_understood(Path::new("a.obj"), Kind::Surface(Format::Obj), &error);
         assert_eq!((failure.code, failure.places[0].as_str()), (Code::OverCount, "a.obj:2"));
     }
 

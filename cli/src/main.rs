@@ -33,6 +33,7 @@ mod scene;
 mod sequence;
 mod surface_file;
 mod table;
+mod volume_input;
 
 use std::process::ExitCode;
 

@@ -64,3 +64,35 @@ fn mistakes_are_told() {
     }
     assert!(!bench.exists("t.png"));
 }
+
+#[test]
+fn volumetric_meshes_are_drawn() {
+    let bench = Bench::new();
+    bench.run("shape two-boxes -o a.ply").ok();
+    bench.run("mesh a.ply -o a.vtu -r 6").ok();
+    let mut seen = Vec::new();
+    for options in ["", " --cut z=0.1", " --color component", " --edges"] {
+        let (object, ran) = bench.json(&format!("render a.vtu -o a.png --force --size 120x90{options}"));
+        assert_eq!(ran.exit, Some(0), "{}", ran.err);
+        assert!(object["triangles"].as_u64() > Some(24), "{object:#}");
+        let png = bench.read("a.png");
+        assert!(size(&png) == [120, 90] && !seen.contains(&png), "{options}");
+        seen.push(png);
+    }
+    // Hexahedra and their faces give the same boundary.
+    bench.run("mesh a.ply -o b.mesh -r 6").ok();
+    bench.run("render a.vtu -o a.png --force --size 120x90").ok();
+    bench.run("render b.mesh -o b.png --size 120x90").ok();
+    assert!(bench.read("a.png") == bench.read("b.png"));
+    bench.file(
+        "nan.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 nan 0\n$EndNodes\n$Elements\n0\n$EndElements\n",
+    );
+    let error = bench.fails("render nan.msh -o c.png", "W3012", 3);
+    assert_eq!(error["where"], serde_json::json!(["vertex 0, counted from 0"]), "{error:#}");
+    bench.file(
+        "none.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n0\n$EndElements\n",
+    );
+    bench.fails("render none.msh -o c.png", "W3013", 3);
+}

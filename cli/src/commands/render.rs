@@ -1,4 +1,4 @@
-//! `welter render`: a picture of a surface.
+//! `welter render`: a picture of a surface, or of the boundary of a volumetric mesh.
 
 use crate::codes::Code;
 use crate::commands::check::failures_of;
@@ -10,22 +10,27 @@ use crate::picture::{self, View};
 use crate::render::{Layer, Paint, Scene};
 use crate::run::{Outcome, Run};
 use crate::surface_file::refuse_standard_output_with_json;
+use crate::volume_input::{VolumeInput, volume_format_of};
 use clap::ValueEnum;
 use serde_json::json;
 use std::path::PathBuf;
 use welter_meshing::Monitor;
 use welter_meshing::spatial::{Bvh, Sharing};
-use welter_meshing::surface::{Topology, TriId, TriMesh};
+use welter_meshing::surface::{Topology, TriId, TriMesh, TriangleSoup};
 
-/// Draw a surface as a PNG picture
+/// Draw a surface, or the boundary of a volumetric mesh, as a PNG picture
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
+Of a volumetric mesh the faces are drawn that have a cell on one side only. To see its cells, cut open where its
+sheets lie over one another: `welter mesh IN -o OUT --picture FILE.png`.
+
 Examples:
   welter render part.stl -o part.png
   welter render part.stl -o part.png --self-intersections --edges --camera 30,20
-  welter render part.stl -o part.png --cut z=0.5 --size 1920x1080")]
+  welter render part.stl -o part.png --cut z=0.5 --size 1920x1080
+  welter render part.vtu -o part.png --color component")]
 pub(crate) struct Args {
-    /// File to draw (obj, ply, stl, off); `-` is standard input
+    /// File to draw (obj, ply, stl, off; vtu, msh, mesh); `-` is standard input
     input: PathBuf,
     /// PNG file to write, not overwritten without --force; `-` is standard output
     #[arg(short, long, value_name = "OUT.png")]
@@ -65,10 +70,10 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
             .why("the format is known from the extension, and only PNG is written")
             .help(format!("-o {}", shell_word(&args.output.with_extension("png")))));
     }
-    let input = Input::open(&args.input, &args.reading)?;
+    let input = Drawn::open(args)?;
     let output = Output::prepare(&args.output, run.force, &[args.input.as_path()])?;
     let mut seconds = Seconds::default();
-    let (soup, _) = console.stage(&mut seconds, "reading", || input.read(&console.progress))?;
+    let soup = input.read(args, run, &mut seconds)?;
     if soup.triangles.is_empty() {
         return Err(Failure::new(Code::NoTriangles, "there are no triangles to draw")
             .subject(args.input.display().to_string())
@@ -111,6 +116,42 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
         "seconds": seconds.to_json(),
     }))?;
     Ok(0)
+}
+
+/// What is to be drawn, open.
+enum Drawn {
+    Surface(Input),
+    Volume(VolumeInput),
+}
+
+impl Drawn {
+    fn open(args: &Args) -> Result<Self, Box<Failure>> {
+        match volume_format_of(&args.input, &args.reading) {
+            Some(format) => VolumeInput::open(&args.input, format, &args.reading).map(Self::Volume),
+            None => Input::open(&args.input, &args.reading).map(Self::Surface),
+        }
+    }
+
+    /// The surface of the file, or the boundary of its volumetric mesh.
+    fn read(self, args: &Args, run: &Run, seconds: &mut Seconds) -> Result<TriangleSoup, Box<Failure>> {
+        let (console, name) = (&run.console, &args.input);
+        let input = match self {
+            Self::Surface(input) => {
+                return console
+                    .stage(seconds, "reading", || input.read(&console.progress))
+                    .map(|(soup, _)| soup);
+            }
+            Self::Volume(input) => input,
+        };
+        let (mesh, _) = console.stage(seconds, "reading", || input.read(&console.progress))?;
+        if let Some(vertex) = mesh.positions.iter().position(|position| !position.is_finite()) {
+            return Err(Failure::new(Code::NonFiniteVertex, "a vertex has a non-finite coordinate")
+                .subject(name.display().to_string())
+                .place(format!("vertex {vertex}, counted from 0"))
+                .help(format!("welter info {}   # counts them", shell_word(name))));
+        }
+        Ok(console.stage(seconds, "boundary", || mesh.boundary()))
+    }
 }
 
 /// One colour a triangle, or none.

@@ -69,6 +69,17 @@ impl FieldValues<'_> {
         !matches!(self, Self::Float64(_))
     }
 
+    /// What its numbers are, in a word: `float64`, `int32`, `int64`, `uint8`.
+    #[must_use]
+    pub fn type_name(&self) -> &'static str {
+        match self {
+            Self::Float64(_) => "float64",
+            Self::Int32(_) => "int32",
+            Self::Int64(_) => "int64",
+            Self::UInt8(_) => "uint8",
+        }
+    }
+
     /// The smallest of the types `Int32` and `Int64` that holds all numbers.
     pub(super) fn of_integers(numbers: Vec<i64>) -> FieldValues<'static> {
         match numbers.iter().map(|&number| i32::try_from(number)).collect::<Result<Vec<_>, _>>() {
@@ -140,6 +151,27 @@ impl<'a> DataField<'a> {
     /// A field of a name, with `components` numbers for each vertex or cell.
     pub fn new(name: impl Into<Cow<'a, str>>, components: usize, values: impl Into<FieldValues<'a>>) -> Self {
         Self { name: name.into(), components, values: values.into() }
+    }
+}
+
+impl DataField<'_> {
+    /// The smallest and the largest of one component, of those that are finite, each as the nearest real number; none where none is.
+    ///
+    /// ```
+    /// use welter_meshing::io::DataField;
+    /// let field = DataField::new("velocity", 2, vec![0.5, f64::NAN, -1.5, f64::INFINITY]);
+    /// assert_eq!(field.range(0), Some([-1.5, 0.5]));
+    /// assert_eq!((field.range(1), field.range(2)), (None, None));
+    /// ```
+    #[must_use]
+    pub fn range(&self, component: usize) -> Option<[f64; 2]> {
+        if component >= self.components {
+            return None;
+        }
+        let numbers = (component..self.values.len()).step_by(self.components).map(|at| self.values.float(at));
+        numbers.filter(|number| number.is_finite()).fold(None, |range: Option<[f64; 2]>, number| {
+            Some(range.map_or([number; 2], |[low, high]| [low.min(number), high.max(number)]))
+        })
     }
 }
 

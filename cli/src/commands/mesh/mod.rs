@@ -43,6 +43,7 @@ use welter_meshing::{Cancelled, Monitor};
 
 pub(crate) use by_default::Meshed;
 pub(crate) use options::Args;
+pub(crate) use volume_file::VolumeFormat;
 
 /// What a run is about: known before the work.
 struct Job<'a> {

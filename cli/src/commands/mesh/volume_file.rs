@@ -14,7 +14,7 @@ use welter_meshing::io::{
 
 /// A format for volumetric meshes, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum VolumeFormat {
+pub(crate) enum VolumeFormat {
     // VTK unstructured grid.
     Vtu,
     // Gmsh.
@@ -27,9 +27,7 @@ impl VolumeFormat {
     /// The format that the extension of a name says.
     pub(super) fn of(name: &Path) -> Result<Self, Box<Failure>> {
         let extension = name.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        let known =
-            |text: &str| Self::value_variants().iter().copied().find(|format| format.extension() == text);
-        if let Some(format) = extension.as_deref().and_then(known) {
+        if let Some(format) = extension.as_deref().and_then(Self::of_extension) {
             return Ok(format);
         }
         let what = match extension {
@@ -48,7 +46,22 @@ impl VolumeFormat {
             .help(help))
     }
 
-    pub(super) fn extension(self) -> &'static str {
+    /// The format that an extension stands for, in any case.
+    pub(crate) fn of_extension(extension: &str) -> Option<Self> {
+        let known = |format: &Self| format.extension().eq_ignore_ascii_case(extension);
+        Self::value_variants().iter().copied().find(known)
+    }
+
+    /// Its name for people.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Vtu => "VTU",
+            Self::Msh => "MSH",
+            Self::Mesh => "MEDIT",
+        }
+    }
+
+    pub(crate) fn extension(self) -> &'static str {
         match self {
             Self::Vtu => "vtu",
             Self::Msh => "msh",
