@@ -25,6 +25,9 @@ pub(crate) enum ProgressMode {
 /// Work shorter than this shows no bar.
 const PATIENCE: Duration = Duration::from_millis(400);
 
+/// Seconds left that plain lines tell; fewer are over before they are read.
+const WORTH_TELLING: f64 = 2.0;
+
 /// Shows the progress of one stage after another.
 #[derive(Debug)]
 pub(crate) struct Progress {
@@ -46,6 +49,14 @@ struct Stage {
     /// Tenths told so far.
     told: Option<u64>,
     started: Instant,
+}
+
+impl Stage {
+    /// Seconds to the end of the stage at the rate so far; none before anything is done, or where the end is not known.
+    fn seconds_left(&self) -> Option<f64> {
+        let rate = (self.done > 0).then(|| self.started.elapsed().as_secs_f64() / self.done as f64)?;
+        (self.total > 0).then(|| rate * self.total.saturating_sub(self.done) as f64)
+    }
 }
 
 impl Progress {
@@ -86,11 +97,15 @@ impl Progress {
         stage.told = Some(tenth);
         let line = if self.mode == ProgressMode::Json {
             let seconds = stage.started.elapsed().as_secs_f64();
-            json!({ "stage": name, "done": stage.done, "total": total, "seconds": seconds }).to_string()
+            let left = stage.seconds_left();
+            json!({ "stage": name, "done": stage.done, "total": total, "seconds": seconds, "seconds_left": left })
+                .to_string()
         } else if total == 0 {
             format!("{name} ...")
         } else {
-            format!("{name}: {} %", tenth * 10)
+            let left = stage.seconds_left().filter(|&left| left >= WORTH_TELLING);
+            let left = left.map_or(String::new(), |left| format!(", about {left:.0} s left"));
+            format!("{name}: {} %{left}", tenth * 10)
         };
         let _ = writeln!(std::io::stderr().lock(), "{line}");
     }
@@ -125,4 +140,22 @@ fn new_bar(name: &'static str, total: u64) -> ProgressBar {
     bar.set_style(style);
     bar.set_message(name);
     bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_follows_from_the_rate() {
+        let stage = |done, total| {
+            let started =
+                Instant::now().checked_sub(Duration::from_secs(30)).expect("a clock beyond its start");
+            Stage { name: "meshing", total, done, told: None, started }
+        };
+        let left = stage(25, 100).seconds_left().expect("something is done");
+        assert!((90.0..120.0).contains(&left), "{left}");
+        assert_eq!((stage(0, 100).seconds_left(), stage(5, 0).seconds_left()), (None, None));
+        assert_eq!(stage(7, 7).seconds_left(), Some(0.0));
+    }
 }

@@ -216,6 +216,13 @@ fn progress_comes_as_lines_or_as_json() {
     for line in json.err.lines() {
         let object: Value = serde_json::from_str(line).unwrap();
         assert!(object["stage"].is_string() && object["done"].is_u64(), "{line}");
+        let [done, total] = ["done", "total"].map(|key| object[key].as_f64().unwrap());
+        let left = object["seconds_left"].as_f64();
+        assert_eq!(
+            (left.is_some(), left == Some(0.0)),
+            (done > 0.0 && total > 0.0, done == total && done > 0.0),
+            "{line}"
+        );
     }
     assert_eq!(bench.run("check a.obj --progress none -q").ok().err, "");
 }
