@@ -1,10 +1,10 @@
 //! Readers of mesh files on any bytes, and the list of self-intersections of small meshes.
 
+use super::trickle::Trickle;
 use crate::entropy::Entropy;
 use crate::exact;
 use crate::generate::Kind;
 use glam::DVec3;
-use std::io::Read;
 use welter_meshing::Monitor;
 use welter_meshing::io::{self, Encoding, Format, Limits, WriteOptions};
 use welter_meshing::spatial::self_intersections;
@@ -71,22 +71,6 @@ fn same(a: &TriangleSoup, b: &TriangleSoup) -> bool {
     };
     bits(a) == bits(b)
         && (&a.triangles, &a.groups, &a.triangle_colors) == (&b.triangles, &b.groups, &b.triangle_colors)
-}
-
-/// A reader that gives a few bytes at a time.
-struct Trickle<'a> {
-    rest: &'a [u8],
-    step: usize,
-}
-
-impl Read for Trickle<'_> {
-    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        let count = self.step.min(buffer.len()).min(self.rest.len());
-        let (now, later) = self.rest.split_at(count);
-        buffer[..count].copy_from_slice(now);
-        self.rest = later;
-        Ok(count)
-    }
 }
 
 /// The list of self-intersections of a small mesh drawn from the bytes, against trying all pairs exactly.

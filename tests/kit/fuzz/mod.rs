@@ -10,12 +10,16 @@ mod isosurfaces;
 mod linear;
 mod meshes;
 mod moved;
+#[cfg(test)]
+mod mutate;
 mod parities;
 mod patches;
 mod perturbation;
 mod queries;
 mod spacetime;
 mod time_of_impact;
+mod trickle;
+mod volumes;
 
 pub use collisions::{
     check_edge_edge, check_vertex_face, check_vertex_segment, edge_edge_collisions, vertex_face_collisions,
@@ -33,6 +37,7 @@ pub use perturbation::perturbed;
 pub use queries::read_queries;
 pub use spacetime::spacetime_collisions;
 pub use time_of_impact::time_of_impact;
+pub use volumes::{read_medit_volume, read_msh_volume, read_vtu_volume};
 
 /// A fuzz body: takes any bytes, panics if something is wrong.
 pub type Body = fn(&[u8]);
@@ -48,11 +53,14 @@ pub const BODIES: &[(&str, Body)] = &[
     ("orientations", orientations),
     ("patch_parity", patch_parity),
     ("perturbed", perturbed),
+    ("read_medit_volume", read_medit_volume),
+    ("read_msh_volume", read_msh_volume),
     ("read_obj", read_obj),
     ("read_off", read_off),
     ("read_ply", read_ply),
     ("read_queries", read_queries),
     ("read_stl", read_stl),
+    ("read_vtu_volume", read_vtu_volume),
     ("root_parities", root_parities),
     ("self_intersecting", self_intersecting),
     ("simplices", simplices),
@@ -66,7 +74,8 @@ pub const BODIES: &[(&str, Body)] = &[
 mod tests {
     use super::*;
     use crate::entropy::stream;
-    use std::{fs, path::Path};
+    use std::fs;
+    use std::path::{Path, PathBuf};
 
     /// Runs on the fixed stream for each body.
     const RUNS: u64 = 1200;
@@ -84,19 +93,50 @@ mod tests {
         }
     }
 
-    #[test]
-    fn bodies_hold_on_the_stored_inputs() {
+    /// Runs on changed inputs for each reader; a variable asks for more.
+    const MUTANTS: u64 = 1500;
+
+    /// The stored inputs of each body that has any, by name of the file.
+    fn corpus() -> Vec<(String, Body, Vec<(PathBuf, Vec<u8>)>)> {
         let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("kit/corpus");
+        let mut found = Vec::new();
         for folder in fs::read_dir(corpus).unwrap().map(Result::unwrap) {
             let name = folder.file_name().into_string().unwrap();
             let (_, body) =
                 BODIES.iter().find(|(known, _)| *known == name).expect("a folder is named after a body");
-            let inputs: Vec<_> = fs::read_dir(folder.path()).unwrap().map(Result::unwrap).collect();
-            assert!(!inputs.is_empty(), "{name} has no stored input");
-            for input in inputs {
-                let bytes = fs::read(input.path()).unwrap();
+            let mut files: Vec<PathBuf> =
+                fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().path()).collect();
+            files.sort();
+            assert!(!files.is_empty(), "{name} has no stored input");
+            found.push((
+                name,
+                *body,
+                files.into_iter().map(|file| (file.clone(), fs::read(file).unwrap())).collect(),
+            ));
+        }
+        found
+    }
+
+    #[test]
+    fn bodies_hold_on_the_stored_inputs() {
+        for (name, body, inputs) in corpus() {
+            for (file, bytes) in inputs {
                 let outcome = std::panic::catch_unwind(|| body(&bytes));
-                assert!(outcome.is_ok(), "{name} fails on {}", input.path().display());
+                assert!(outcome.is_ok(), "{name} fails on {}", file.display());
+            }
+        }
+    }
+
+    #[test]
+    fn readers_hold_on_changed_inputs() {
+        let runs = std::env::var("WELTER_MUTANTS").map_or(MUTANTS, |text| text.parse().unwrap());
+        for (name, body, inputs) in corpus().into_iter().filter(|(name, ..)| name.starts_with("read_")) {
+            for seed in 0..runs {
+                let [(file, input), (_, other)] =
+                    [seed, seed / 7].map(|k| &inputs[usize::try_from(k).expect("small") % inputs.len()]);
+                let bytes = mutate::mutated(input, other, seed);
+                let outcome = std::panic::catch_unwind(|| body(&bytes));
+                assert!(outcome.is_ok(), "{name} fails on {} changed by {seed}", file.display());
             }
         }
     }

@@ -1,0 +1,3 @@
+//! Runs `welter_kit::fuzz::read_vtu_volume`.
+#![no_main]
+libfuzzer_sys::fuzz_target!(|data: &[u8]| welter_kit::fuzz::read_vtu_volume(data));
