@@ -55,6 +55,7 @@ pub use vti::{DataArray, write_vti};
 pub use vtk::VtkEncoding;
 pub use vtu::{read_vtu, write_vtu};
 
+use crate::DVec3;
 use crate::surface::TriangleSoup;
 use std::fmt;
 use std::io::{Read, Write};
@@ -192,6 +193,36 @@ pub fn read_reported(
         Format::Stl => stl::read(input, limits),
         Format::Off => off::read(input, limits),
     }
+}
+
+/// Lines of straight segments as a file holds them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PolylineData {
+    /// Where vertices are.
+    pub positions: Vec<DVec3>,
+    /// The vertices of each line, by index, which is in range; at least two.
+    pub lines: Vec<Vec<u32>>,
+}
+
+/// Reads the `l` statements of an OBJ file, and says what it held besides, faces among that.
+///
+/// # Errors
+/// As [`read`].
+///
+/// ```
+/// use welter_meshing::{io::{Limits, read_obj_polylines}, volumetric::plane::ClosedPolylines};
+/// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\nl 3 1\n";
+/// let (found, _) = read_obj_polylines(&file[..], &Limits::default())?;
+/// assert_eq!(found.lines, [vec![0, 1, 2], vec![2, 0]]);
+/// let curves = ClosedPolylines::joined(&found.positions, &found.lines)?;
+/// assert_eq!(curves.loops(), [[0, 1, 2]]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_obj_polylines(
+    input: impl Read,
+    limits: &Limits,
+) -> Result<(PolylineData, ReadReport), ReadError> {
+    obj::read_polylines(input, limits)
 }
 
 /// Text or binary.

@@ -1,4 +1,4 @@
-//! Wavefront OBJ [Murray96]: vertices, faces, groups and objects.
+//! Wavefront OBJ [Murray96]: vertices, faces, groups and objects; or lines.
 //!
 //! Why a reader of our own and not `tobj`, which is its peer in the tests: `tobj` 4.0.5 gives each group vertices of its
 //! own in the order of first use, so that surfaces shared between groups fall open and unused vertices vanish; names no
@@ -9,5 +9,5 @@
 mod read;
 mod write;
 
-pub(super) use read::read;
+pub(super) use read::{read, read_polylines};
 pub(super) use write::write;

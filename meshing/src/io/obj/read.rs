@@ -3,13 +3,14 @@
 //! `o` and `g` both begin a group that lasts until the next of either; one without a name ends it. A line may go on after
 //! `\`. Faces may name vertices that come later (positive indices only). Statements on looks, lines, points and free-form
 //! curves are passed over unread and counted; a keyword that OBJ does not have is an error. A vertex may carry a weight of
-//! 1 or a colour; another weight has no meaning common to programs and is refused.
+//! 1 or a colour; another weight has no meaning common to programs and is refused. Lines are read where they are asked for, in
+//! place of faces.
 
 use super::super::builder::Builder;
 use super::super::error::{Place, ReadError};
 use super::super::source::{MAX_LINE, Source};
 use super::super::tokens::{self, Tokens};
-use super::super::{Limits, ReadReport};
+use super::super::{Limits, PolylineData, ReadReport};
 use crate::surface::TriangleSoup;
 use glam::DVec3;
 use std::io::Read;
@@ -57,6 +58,8 @@ const PASSED_OVER: [(&str, &str); 35] = [
 struct Reader {
     builder: Builder,
     corners: Vec<u32>,
+    /// Lines, if these are wanted in place of faces.
+    lines: Option<Vec<Vec<u32>>>,
     /// The largest index that named a vertex not yet read, and the line where it first stood.
     ahead: Option<(i64, Place)>,
 }
@@ -65,9 +68,27 @@ pub(in super::super) fn read(
     input: impl Read,
     limits: &Limits,
 ) -> Result<(TriangleSoup, ReadReport), ReadError> {
+    Ok(read_statements(input, limits, None)?.builder.finish())
+}
+
+/// Reads lines in place of faces.
+pub(in super::super) fn read_polylines(
+    input: impl Read,
+    limits: &Limits,
+) -> Result<(PolylineData, ReadReport), ReadError> {
+    let Reader { builder, lines, .. } = read_statements(input, limits, Some(Vec::new()))?;
+    let (soup, report) = builder.finish();
+    Ok((PolylineData { positions: soup.positions, lines: lines.unwrap_or_default() }, report))
+}
+
+fn read_statements(
+    input: impl Read,
+    limits: &Limits,
+    lines: Option<Vec<Vec<u32>>>,
+) -> Result<Reader, ReadError> {
     let mut source = Source::new(input);
     source.begin_text("OBJ text")?;
-    let mut reader = Reader { builder: Builder::new(limits), corners: Vec::new(), ahead: None };
+    let mut reader = Reader { builder: Builder::new(limits), corners: Vec::new(), lines, ahead: None };
     let mut joined = Vec::new();
     let mut filled = false;
     loop {
@@ -101,7 +122,7 @@ pub(in super::super) fn read(
             return Err(ReadError::IndexOutOfRange { at, index, vertices, base: 1, declared: false });
         }
     }
-    Ok(reader.builder.finish())
+    Ok(reader)
 }
 
 /// Appends a line without the `\` at its end.
@@ -118,6 +139,11 @@ impl Reader {
         match tokens.next() {
             None => Ok(()),
             Some(b"v") => self.vertex(tokens, at),
+            Some(b"l") if self.lines.is_some() => self.line(tokens, at),
+            Some(b"f") if self.lines.is_some() => {
+                self.builder.ignore("`f` statements", at);
+                Ok(())
+            }
             Some(b"f") => self.face(tokens, at),
             Some(b"g" | b"o") => {
                 self.builder.begin_group(tokens::name(tokens.rest()));
@@ -176,6 +202,26 @@ impl Reader {
 
     #[inline]
     fn face(&mut self, tokens: Tokens<'_>, at: Place) -> Result<(), ReadError> {
+        self.take_corners(tokens, "a face", 3, at)?;
+        self.builder.polygon(&self.corners, at)
+    }
+
+    fn line(&mut self, tokens: Tokens<'_>, at: Place) -> Result<(), ReadError> {
+        self.take_corners(tokens, "a line", 2, at)?;
+        let corners = self.corners.clone();
+        self.lines.get_or_insert_default().push(corners);
+        Ok(())
+    }
+
+    /// The vertices of a statement, of which there must be some.
+    #[inline]
+    fn take_corners(
+        &mut self,
+        tokens: Tokens<'_>,
+        what: &str,
+        least: usize,
+        at: Place,
+    ) -> Result<(), ReadError> {
         self.corners.clear();
         for token in tokens {
             if token[0] == b'#' {
@@ -184,14 +230,14 @@ impl Reader {
             let index = self.corner(token, at)?;
             self.corners.push(index);
         }
-        if self.corners.len() < 3 {
-            return Err(ReadError::Unexpected {
-                at,
-                expected: "a face of at least 3 vertices".to_owned(),
-                found: self.corners.len().to_string(),
-            });
+        if self.corners.len() >= least {
+            return Ok(());
         }
-        self.builder.polygon(&self.corners, at)
+        Err(ReadError::Unexpected {
+            at,
+            expected: format!("{what} of at least {least} vertices"),
+            found: self.corners.len().to_string(),
+        })
     }
 
     /// The vertex of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 0.
@@ -250,6 +296,19 @@ mod tests {
             error.to_string(),
             "line 1: vertex index 4 is out of range, the file has 3 vertices and counts from 1"
         );
+    }
+
+    #[test]
+    fn lines_are_read_in_place_of_faces() {
+        let file = "v 0 0 0\nl 1 2 3\nv 1 0 0\nv 0 1 0\nl 3/1 -3/2 # home\nf 1 2 3\np 1\n";
+        let (found, report) = read_polylines(file.as_bytes(), &Limits::default()).unwrap();
+        assert_eq!((found.positions.len(), found.lines), (3, vec![vec![0, 1, 2], vec![2, 0]]));
+        let ignored: Vec<&str> = report.ignored.iter().map(|ignored| &*ignored.what).collect();
+        assert_eq!(ignored, ["`f` statements", "`p` statements"]);
+        let error = |file: &str| read_polylines(file.as_bytes(), &Limits::default()).unwrap_err().to_string();
+        assert_eq!(error("v 0 0 0\nl 1\n"), "line 2: expected a line of at least 2 vertices, found 1");
+        let beyond = "line 2: vertex index 2 is out of range, the file has 1 vertices and counts from 1";
+        assert_eq!(error("v 0 0 0\nl 1 2\n"), beyond);
     }
 
     #[test]

@@ -8,6 +8,7 @@
 mod area;
 mod front;
 mod hosts;
+mod joined;
 mod polylines;
 mod quad_mesh;
 mod triangles;
@@ -15,6 +16,7 @@ mod turning;
 
 pub use area::{AreaMesh, mesh_area};
 pub use hosts::{AreaHost, AreaHosts};
+pub use joined::JoinError;
 pub use polylines::{ClosedPolylines, PolylineDefects};
 pub use quad_mesh::{QuadMesh, QuadMeshError};
 pub use triangles::AreaTriangles;
