@@ -96,8 +96,11 @@ mod tests {
     /// Runs on changed inputs for each reader; a variable asks for more.
     const MUTANTS: u64 = 1500;
 
+    /// A stored input and its file.
+    type Stored = (PathBuf, Vec<u8>);
+
     /// The stored inputs of each body that has any, by name of the file.
-    fn corpus() -> Vec<(String, Body, Vec<(PathBuf, Vec<u8>)>)> {
+    fn corpus() -> Vec<(String, Body, Vec<Stored>)> {
         let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("kit/corpus");
         let mut found = Vec::new();
         for folder in fs::read_dir(corpus).unwrap().map(Result::unwrap) {
