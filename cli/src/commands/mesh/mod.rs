@@ -45,6 +45,9 @@ pub(crate) use by_default::Meshed;
 pub(crate) use options::Args;
 pub(crate) use volume_file::VolumeFormat;
 
+/// What the reader of OBJ calls lines.
+const LINES: &str = "`l` statements";
+
 /// What a run is about: known before the work.
 struct Job<'a> {
     args: &'a Args,
@@ -65,6 +68,9 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     let (soup, held) = console.stage(&mut seconds, "reading", || input.read(&console.progress))?;
     for ignored in &held.ignored {
         console.detail(2, &format!("{} ({}) passed over", ignored.what, grouped(ignored.count)));
+    }
+    if soup.triangles.is_empty() && held.ignored.iter().any(|ignored| ignored.what == LINES) {
+        return Err(refused::lines_alone(args));
     }
     let surface = console.stage(&mut seconds, "checking", || closed_oriented(soup, &args.input))?;
     let report = |p: welter_meshing::Progress| console.progress.report(p.stage, p.done, p.total);

@@ -82,6 +82,16 @@ pub(super) fn refused(job: &Job<'_>, error: &VolumeError) -> Box<Failure> {
     }
 }
 
+/// The failure for a file of lines without triangles.
+pub(super) fn lines_alone(args: &Args) -> Box<Failure> {
+    Failure::new(Code::NoTriangles, "there are lines and no triangles")
+        .subject(args.input.display().to_string())
+        .why(
+            "this command meshes the volume of surfaces, not the area of curves, which only the library does",
+        )
+        .help(format!("welter info {}", shell_word(&args.input)))
+}
+
 /// The code alone.
 pub(super) fn code_of(error: &VolumeError) -> Code {
     match error {
