@@ -20,7 +20,8 @@ Without -r and -s there are 63 cells along the shortest side of the bounding box
 more than about 3 million hexahedra. Where features are too fine, cells are halved and the mesh is made again.
 
 A .vtu file has the cells, with the fields copy (which of the sheets on its cell), region and component; .msh and
-.mesh files have the faces of the boundary too, tagged with the groups of the surface.
+.mesh files have the faces of the boundary too, tagged with the groups of the surface, as .vtu has with --boundary.
+.msh and .vtu keep the names of the groups.
 
 Exit codes: 3 when the surface is open, not oriented, or inside out somewhere; 6 when memory would not suffice;
 8 when features are too fine or the time is up (a mesh that is there by then is written); 9 when verification
