@@ -9,10 +9,28 @@ use welter_meshing::Monitor;
 use welter_meshing::io::{self, Encoding, Format, Limits, WriteOptions};
 use welter_meshing::spatial::self_intersections;
 use welter_meshing::surface::{TriMesh, TriangleSoup};
+use welter_meshing::volumetric::plane::ClosedPolylines;
 
-/// The OBJ reader.
+/// The OBJ reader, also of lines, which are joined to curves where that is possible.
 pub fn read_obj(bytes: &[u8]) {
     read(Format::Obj, bytes);
+    let Ok((found, _)) = io::read_obj_polylines(bytes, &Limits::default()) else { return };
+    let segments = |lines: &[Vec<u32>]| lines.iter().map(|line| line.len() - 1).sum::<usize>();
+    assert!(found.lines.iter().all(|line| line.len() > 1) && segments(&found.lines) <= bytes.len());
+    if let Ok(curves) = ClosedPolylines::joined(&found.positions, &found.lines) {
+        // Each segment of a line is one of the curves.
+        assert_eq!(curves.len(), segments(&found.lines), "{found:?}");
+        let mut pairs: Vec<[u32; 2]> =
+            found.lines.iter().flat_map(|line| line.windows(2).map(|pair| [pair[0], pair[1]])).collect();
+        let around = |corners: &Vec<u32>| {
+            let next = corners.iter().cycle().skip(1);
+            corners.iter().zip(next).map(|(&a, &b)| [a, b]).collect::<Vec<_>>()
+        };
+        let mut joined: Vec<[u32; 2]> = curves.loops().iter().flat_map(around).collect();
+        pairs.sort_unstable();
+        joined.sort_unstable();
+        assert_eq!(pairs, joined);
+    }
 }
 
 /// The PLY reader, text and binary.

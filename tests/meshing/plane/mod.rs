@@ -4,6 +4,7 @@ mod arrangement;
 mod cases;
 mod discs;
 mod laws;
+mod lines;
 mod refused;
 
 use glam::DVec2;
