@@ -2,6 +2,7 @@
 //! random complexes, and on known shapes.
 
 mod coarsening;
+mod conversion;
 mod quality;
 mod sides;
 mod tetrahedra;

@@ -53,5 +53,5 @@ pub use quality::{DIHEDRAL_BINS, RATIO_BINS, TetQuality, tetrahedra_quality};
 pub use sides::{BoundarySide, boundary_sides};
 pub use tet_mesh::TetMesh;
 pub use tetrahedra::{Tetrahedra, TetrahedraError, TetrahedronPoint, tetrahedra};
-pub use verify::{Finding, Findings, Verification, verify};
+pub use verify::{Finding, Findings, Verification, verify, verify_conversion};
 pub use volume::{VolumeMesh, mesh_volume};

@@ -37,7 +37,8 @@ use product::{Boundary, Product};
 use report::Report;
 use welter_meshing::surface::ClosedOrientedMesh;
 use welter_meshing::volumetric::{
-    TetrahedraError, Verification, VolumeMesh, VolumeParameters, mesh_volume, outward, tetrahedra, verify,
+    TetError, TetrahedraError, Verification, VolumeMesh, VolumeParameters, mesh_volume, outward, tetrahedra,
+    verify, verify_conversion,
 };
 use welter_meshing::{Cancelled, Monitor};
 
@@ -248,7 +249,21 @@ impl Job<'_> {
         }
         if !args.no_verify {
             match console.stage(seconds, "verifying", || verify(surface, &product.volume, monitor)) {
-                Ok(verification) => found.verification = Some(verification),
+                Ok(mut verification) => {
+                    if let Some(tetrahedra) = &product.tetrahedra {
+                        let conversion = console.stage(seconds, "verifying tetrahedra", || {
+                            verify_conversion(&product.volume, tetrahedra.mesh(), monitor)
+                        });
+                        match conversion {
+                            Ok(findings) => verification.add_conversion(findings),
+                            Err(TetError::Cancelled(_)) => {
+                                return Ok(Found { stopped: Some("verifying tetrahedra"), ..found });
+                            }
+                            Err(error) => unreachable!("tetrahedra of hexahedra are a complex: {error}"),
+                        }
+                    }
+                    found.verification = Some(verification);
+                }
                 Err(Cancelled) => return Ok(Found { stopped: Some("verifying"), ..found }),
             }
         }

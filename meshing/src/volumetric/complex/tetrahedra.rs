@@ -13,6 +13,12 @@ pub(in crate::volumetric) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3]
 /// The sides of a tetrahedron as corners, each opposite to the corner of its number.
 pub(in crate::volumetric) const TRIANGLES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
 
+/// Tetrahedra whose sides a thread sorts at a time.
+const TETRAHEDRA: usize = 1 << 14;
+
+/// About how many sides of tetrahedra are sorted together, each counted as often as it is met: at most 200 MB.
+const SIDES_AT_A_TIME: usize = 1 << 24;
+
 /// What is wrong with a [`TetMesh`].
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
@@ -91,32 +97,51 @@ pub fn euler_characteristics_of_tetrahedra(
     count_vertices(&tallies, &of_vertex);
     let mut tally = Tally::new(&tallies);
     labels.of().iter().for_each(|&component| tally.add(component, 3));
-    for [a, ..] in distinct(&mesh.tetrahedra, &EDGES, monitor)? {
+    let vertices = mesh.positions.len();
+    for_each_distinct(&mesh.tetrahedra, &EDGES, vertices, monitor, |[a, ..]| {
         tally.add(of_vertex[a as usize], 1);
-    }
-    for [a, ..] in distinct(&mesh.tetrahedra, &TRIANGLES, monitor)? {
+    })?;
+    for_each_distinct(&mesh.tetrahedra, &TRIANGLES, vertices, monitor, |[a, ..]| {
         tally.add(of_vertex[a as usize], 2);
-    }
+    })?;
     drop(tally);
     Ok(Components { counts: tallies.into_counts(), labels })
 }
 
-/// The different sides of all tetrahedra, by their vertices, ascending.
-fn distinct<const N: usize>(
+/// Calls `f` with the different sides of all tetrahedra, by their vertices, ascending. Sides whose first vertices are in one range are sorted
+/// together, so that few are held at a time.
+fn for_each_distinct<const N: usize>(
     tetrahedra: &[[u32; 4]],
     sides: &[[usize; N]],
+    vertices: usize,
     monitor: &Monitor<'_>,
-) -> Result<Vec<[u32; N]>, Cancelled> {
-    monitor.check()?;
-    let mut all = Vec::with_capacity(tetrahedra.len() * sides.len());
-    for corners in tetrahedra {
-        all.extend(sides.iter().map(|side| ascending(side.map(|corner| corners[corner]))));
+    mut f: impl FnMut([u32; N]),
+) -> Result<(), Cancelled> {
+    let ranges = (tetrahedra.len() * sides.len()).div_ceil(SIDES_AT_A_TIME).max(1);
+    for range in 0..ranges {
+        monitor.check()?;
+        let [begin, end] = [range, range + 1].map(|n| (n * vertices / ranges) as u32);
+        let lists: Vec<Vec<[u32; N]>> = tetrahedra
+            .par_chunks(TETRAHEDRA)
+            .map(|chunk| {
+                let all = chunk.iter().flat_map(|corners| {
+                    sides.iter().map(|side| ascending(side.map(|corner| corners[corner])))
+                });
+                let mut list: Vec<[u32; N]> = all.filter(|side| (begin..end).contains(&side[0])).collect();
+                list.sort_unstable();
+                list.dedup();
+                list
+            })
+            .collect();
+        monitor.check()?;
+        let mut all = lists.concat();
+        drop(lists);
+        all.par_sort_unstable();
+        monitor.check()?;
+        all.dedup();
+        all.into_iter().for_each(&mut f);
     }
-    monitor.check()?;
-    all.par_sort_unstable();
-    monitor.check()?;
-    all.dedup();
-    Ok(all)
+    Ok(())
 }
 
 /// The same numbers, ascending.

@@ -15,10 +15,12 @@
 //! Only the mesh and its hosts are read, nothing of how they were made. Complexity: near linear in cells of the grid, hexahedra and
 //! triangles in them.
 
+mod conversion;
 mod embedding;
 mod euler;
 mod windings;
 
+pub use conversion::verify_conversion;
 pub(super) use euler::{check as check_euler, place_of};
 pub(super) use windings::check as check_copies;
 
@@ -75,6 +77,27 @@ pub enum Finding {
         /// The hexahedra.
         hexahedra: [u32; 2],
     },
+    /// A tetrahedron has no positive volume.
+    Flat {
+        /// The tetrahedron.
+        tetrahedron: u32,
+    },
+    /// A component of hexahedra fell apart in tetrahedra, or became one with another.
+    Regrouped {
+        /// The component of hexahedra.
+        hexahedra: u32,
+        /// That of tetrahedra.
+        tetrahedra: u32,
+    },
+    /// Tetrahedra have another Euler characteristic than the hexahedra from which they were made.
+    Converted {
+        /// The component of hexahedra.
+        component: u32,
+        /// Its Euler characteristic.
+        characteristic: i64,
+        /// That of its tetrahedra; 0 if there are none.
+        of_tetrahedra: i64,
+    },
     /// Triangles around a vertex lie in different hexahedra where the vertex is.
     Vertices {
         /// How many vertices are so.
@@ -108,6 +131,17 @@ impl fmt::Display for Finding {
                     "triangles {s} and {t} have an edge in a cell where they are in hexahedra {a} and {b}"
                 )
             }
+            Self::Flat { tetrahedron } => write!(f, "tetrahedron {tetrahedron} has no positive volume"),
+            Self::Regrouped { hexahedra, tetrahedra } => {
+                write!(
+                    f,
+                    "component {hexahedra} of hexahedra is not all of component {tetrahedra} of tetrahedra"
+                )
+            }
+            Self::Converted { component, characteristic, of_tetrahedra } => write!(
+                f,
+                "component {component} has Euler characteristic {characteristic}, its tetrahedra {of_tetrahedra}"
+            ),
             Self::Vertices { count } => write!(f, "{count} vertices have no one host"),
         }
     }
@@ -168,6 +202,11 @@ impl Verification {
     #[must_use]
     pub fn passed(&self) -> bool {
         self.winding_copies.none() && self.euler.none() && self.embedding.none()
+    }
+
+    /// Adds what was found when the hexahedra became tetrahedra to the Euler characteristics.
+    pub fn add_conversion(&mut self, findings: Findings) {
+        self.euler = Findings::merge([std::mem::take(&mut self.euler), findings]);
     }
 
     /// Everything that was listed.
