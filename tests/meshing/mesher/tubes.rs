@@ -37,14 +37,12 @@ fn tubes_have_as_many_copies_as_they_lie_over_themselves() {
     }
     tally.print();
     assert!(!tally.any_wrong(), "some meshes are wrong, see above");
-    // What is immersed is meshed, or bounds another volume too, or is among the few that the search for copies misses.
-    let missed = tally.count(Class::Missed);
+    // What is immersed is meshed, or bounds another volume too.
     assert_eq!(
-        tally.as_unfolded + tally.ambiguous_immersed + missed,
+        tally.as_unfolded + tally.ambiguous_immersed,
         tally.immersed,
-        "some tubes were refused for no known reason, see above"
+        "some tubes were refused though they are immersed, see above"
     );
-    assert!(1000 * tally.as_unfolded >= 995 * tally.immersed, "too many tubes are not meshed as unfolded");
     assert!(100 * tally.immersed >= 80 * count as usize, "too few tubes are immersed");
     assert!(100 * tally.overlapping >= 99 * tally.meshed, "too few tubes overlap themselves");
 }
