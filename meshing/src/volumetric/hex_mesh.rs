@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use rayon::prelude::*;
+
 use crate::DVec3;
 use crate::grid::Grid3;
 
@@ -127,8 +129,8 @@ impl HexMesh {
         let part = Self {
             grid: self.grid,
             nodes: std::mem::take(&mut self.nodes),
-            hexahedra: some.iter().map(|&h| self.hexahedra[h as usize]).collect(),
-            cells: some.iter().map(|&h| self.cells[h as usize]).collect(),
+            hexahedra: some.par_iter().with_min_len(1 << 14).map(|&h| self.hexahedra[h as usize]).collect(),
+            cells: some.par_iter().with_min_len(1 << 14).map(|&h| self.cells[h as usize]).collect(),
         };
         let result = f(&part);
         self.nodes = part.nodes;

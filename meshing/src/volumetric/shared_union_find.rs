@@ -6,6 +6,8 @@
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
+use rayon::prelude::*;
+
 /// A partition of `0..n`. Orderings are relaxed: only the parents themselves are read, and any ancestor will do for one.
 pub(super) struct SharedUnionFind {
     parent: Vec<AtomicU32>,
@@ -14,7 +16,9 @@ pub(super) struct SharedUnionFind {
 impl SharedUnionFind {
     /// Every element alone.
     pub(super) fn new(n: usize) -> Self {
-        Self { parent: (0..n).map(|i| AtomicU32::new(i as u32)).collect() }
+        Self {
+            parent: (0..n).into_par_iter().with_min_len(1 << 16).map(|i| AtomicU32::new(i as u32)).collect(),
+        }
     }
 
     /// The smallest member of an element's set, of those united so far.
@@ -56,7 +60,6 @@ impl SharedUnionFind {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rayon::prelude::*;
 
     #[test]
     fn roots_are_smallest_members_whoever_unites() {

@@ -8,6 +8,8 @@
 //!
 //! Complexity: near linear in the crossings, and what the search takes.
 
+use rayon::prelude::*;
+
 use super::continued::{self, CellStep, Continued, Continues, Copy, Hidden, Step};
 use super::copies::{Contradiction, Link, MAX_COPIES, Patch, Problem, SEAM, Solution, Square, Unknown};
 use super::error::Trouble;
@@ -64,10 +66,10 @@ impl Sheets {
         let facts = in_all_cells(cut, &regions.pieces, "copies of regions", monitor, |row| deep[row], add)?;
         let count = cut.crossings.axes.iter().map(|rows| rows.items().len()).sum();
         let (mut classes, mut patches) = (UnionFind::new(count), UnionFind::new(count));
-        for facts in &facts {
-            facts.same_class.iter().for_each(|&[a, b]| classes.unite(a, b));
-            facts.same_patch.iter().for_each(|&[a, b]| patches.unite(a, b));
-        }
+        rayon::join(
+            || facts.iter().flat_map(|facts| &facts.same_class).for_each(|&[a, b]| classes.unite(a, b)),
+            || facts.iter().flat_map(|facts| &facts.same_patch).for_each(|&[a, b]| patches.unite(a, b)),
+        );
         let mut sheets =
             Self { class_of: vec![NONE; count], patch_of: vec![NONE; count], solution: Solution::default() };
         let mut problem = Problem {
@@ -81,7 +83,7 @@ impl Sheets {
         // Every crossing is seen from four cells; what it leads from and to is the same in all.
         let mut between: Vec<[u32; 3]> =
             facts.iter().flat_map(|facts| facts.crossings.iter().copied()).collect();
-        between.sort_unstable();
+        between.par_sort_unstable();
         between.dedup();
         for &[id, outer, inner] in &between {
             let class = classes.root(id) as usize;
