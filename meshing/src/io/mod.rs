@@ -225,6 +225,26 @@ pub fn read_obj_polylines(
     obj::read_polylines(input, limits)
 }
 
+/// Reads an OBJ file with its faces and its lines: the surface, the vertices of each line, which are those of the surface by index, and what
+/// the file held besides.
+///
+/// # Errors
+/// As [`read`].
+///
+/// ```
+/// use welter_meshing::io::{Limits, read_obj_with_lines};
+/// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n";
+/// let (soup, lines, _) = read_obj_with_lines(&file[..], &Limits::default())?;
+/// assert_eq!((soup.triangles, lines), (vec![[0, 1, 2]], vec![vec![0, 1]]));
+/// # Ok::<(), welter_meshing::io::ReadError>(())
+/// ```
+pub fn read_obj_with_lines(
+    input: impl Read,
+    limits: &Limits,
+) -> Result<(TriangleSoup, Vec<Vec<u32>>, ReadReport), ReadError> {
+    obj::read_with_lines(input, limits)
+}
+
 /// Text or binary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Encoding {

@@ -37,25 +37,22 @@ impl VolumeMesh {
     /// How many regions of the grid the hexahedra hold copies of.
     #[must_use]
     pub fn region_count(&self) -> usize {
-        self.copies_by_region().len()
+        copies_by_region(&self.regions, &self.windings).len()
     }
 
     /// How many copies of regions there are.
     #[must_use]
     pub fn copy_count(&self) -> usize {
-        self.copies_by_region().iter().map(|&(_, copies)| copies as usize).sum()
+        copies_by_region(&self.regions, &self.windings).iter().map(|&(_, copies)| copies as usize).sum()
     }
+}
 
-    /// The regions that hexahedra hold copies of, with how many copies each has.
-    fn copies_by_region(&self) -> Vec<(u32, u32)> {
-        let mut held = vec![false; self.windings.len()];
-        self.regions
-            .iter()
-            .filter(|&&region| region != u32::MAX)
-            .for_each(|&region| held[region as usize] = true);
-        let held = (0..).zip(&held).filter(|&(_, &held)| held);
-        held.map(|(region, _)| (region, self.windings[region as usize].max(0) as u32)).collect()
-    }
+/// The regions that cells hold copies of, with how many copies each has.
+pub(super) fn copies_by_region(regions: &[u32], windings: &[i32]) -> Vec<(u32, u32)> {
+    let mut held = vec![false; windings.len()];
+    regions.iter().filter(|&&region| region != u32::MAX).for_each(|&region| held[region as usize] = true);
+    let held = (0..).zip(&held).filter(|&(_, &held)| held);
+    held.map(|(region, _)| (region, windings[region as usize].max(0) as u32)).collect()
 }
 
 /// Meshes the volume that a surface encloses.

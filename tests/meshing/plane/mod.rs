@@ -6,10 +6,11 @@ mod discs;
 mod laws;
 mod lines;
 mod refused;
+mod verified;
 
 use glam::DVec2;
 use welter_meshing::Monitor;
-use welter_meshing::volumetric::plane::{AreaMesh, ClosedPolylines, mesh_area};
+use welter_meshing::volumetric::plane::{AreaMesh, ClosedPolylines, mesh_area, verify_area};
 use welter_meshing::volumetric::{Resolution, VolumeError, VolumeParameters};
 
 fn curves(loops: &[Vec<[f64; 2]>]) -> ClosedPolylines {
@@ -53,6 +54,9 @@ fn winding(curves: &ClosedPolylines, at: DVec2) -> i32 {
 /// Checks everything that must hold of any mesh.
 fn check(curves: &ClosedPolylines, area: &AreaMesh) {
     copies_are_winding_numbers(curves, area);
+    let verification = verify_area(curves, area, &Monitor::none()).unwrap();
+    assert!(verification.passed(), "{:?}", verification.findings().collect::<Vec<_>>());
+    assert_eq!(verification.characteristics, area.mesh.components().1);
     let (of, characteristics) = area.mesh.components();
     let mut sums = vec![[0, 0]; characteristics.len()];
     for number in 0..curves.loops().len() {

@@ -9,5 +9,5 @@
 mod read;
 mod write;
 
-pub(super) use read::{read, read_polylines};
+pub(super) use read::{read, read_polylines, read_with_lines};
 pub(super) use write::write;

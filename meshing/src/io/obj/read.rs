@@ -58,8 +58,10 @@ const PASSED_OVER: [(&str, &str); 35] = [
 struct Reader {
     builder: Builder,
     corners: Vec<u32>,
-    /// Lines, if these are wanted in place of faces.
+    /// Lines, if these are wanted.
     lines: Option<Vec<Vec<u32>>>,
+    /// Whether faces are wanted.
+    faces: bool,
     /// The largest index that named a vertex not yet read, and the line where it first stood.
     ahead: Option<(i64, Place)>,
 }
@@ -68,7 +70,17 @@ pub(in super::super) fn read(
     input: impl Read,
     limits: &Limits,
 ) -> Result<(TriangleSoup, ReadReport), ReadError> {
-    Ok(read_statements(input, limits, None)?.builder.finish())
+    Ok(read_statements(input, limits, None, true)?.builder.finish())
+}
+
+/// Reads faces and lines.
+pub(in super::super) fn read_with_lines(
+    input: impl Read,
+    limits: &Limits,
+) -> Result<(TriangleSoup, Vec<Vec<u32>>, ReadReport), ReadError> {
+    let Reader { builder, lines, .. } = read_statements(input, limits, Some(Vec::new()), true)?;
+    let (soup, report) = builder.finish();
+    Ok((soup, lines.unwrap_or_default(), report))
 }
 
 /// Reads lines in place of faces.
@@ -76,7 +88,7 @@ pub(in super::super) fn read_polylines(
     input: impl Read,
     limits: &Limits,
 ) -> Result<(PolylineData, ReadReport), ReadError> {
-    let Reader { builder, lines, .. } = read_statements(input, limits, Some(Vec::new()))?;
+    let Reader { builder, lines, .. } = read_statements(input, limits, Some(Vec::new()), false)?;
     let (soup, report) = builder.finish();
     Ok((PolylineData { positions: soup.positions, lines: lines.unwrap_or_default() }, report))
 }
@@ -85,10 +97,11 @@ fn read_statements(
     input: impl Read,
     limits: &Limits,
     lines: Option<Vec<Vec<u32>>>,
+    faces: bool,
 ) -> Result<Reader, ReadError> {
     let mut source = Source::new(input);
     source.begin_text("OBJ text")?;
-    let mut reader = Reader { builder: Builder::new(limits), corners: Vec::new(), lines, ahead: None };
+    let mut reader = Reader { builder: Builder::new(limits), corners: Vec::new(), lines, faces, ahead: None };
     let mut joined = Vec::new();
     let mut filled = false;
     loop {
@@ -140,7 +153,7 @@ impl Reader {
             None => Ok(()),
             Some(b"v") => self.vertex(tokens, at),
             Some(b"l") if self.lines.is_some() => self.line(tokens, at),
-            Some(b"f") if self.lines.is_some() => {
+            Some(b"f") if !self.faces => {
                 self.builder.ignore("`f` statements", at);
                 Ok(())
             }
@@ -302,9 +315,12 @@ mod tests {
     fn lines_are_read_in_place_of_faces() {
         let file = "v 0 0 0\nl 1 2 3\nv 1 0 0\nv 0 1 0\nl 3/1 -3/2 # home\nf 1 2 3\np 1\n";
         let (found, report) = read_polylines(file.as_bytes(), &Limits::default()).unwrap();
-        assert_eq!((found.positions.len(), found.lines), (3, vec![vec![0, 1, 2], vec![2, 0]]));
+        assert_eq!((found.positions.len(), &found.lines[..]), (3, &[vec![0, 1, 2], vec![2, 0]][..]));
         let ignored: Vec<&str> = report.ignored.iter().map(|ignored| &*ignored.what).collect();
         assert_eq!(ignored, ["`f` statements", "`p` statements"]);
+        let (soup, lines, report) = read_with_lines(file.as_bytes(), &Limits::default()).unwrap();
+        assert_eq!((soup.triangles, lines), (vec![[0, 1, 2]], found.lines));
+        assert_eq!(report.ignored.len(), 1);
         let error = |file: &str| read_polylines(file.as_bytes(), &Limits::default()).unwrap_err().to_string();
         assert_eq!(error("v 0 0 0\nl 1\n"), "line 2: expected a line of at least 2 vertices, found 1");
         let beyond = "line 2: vertex index 2 is out of range, the file has 1 vertices and counts from 1";

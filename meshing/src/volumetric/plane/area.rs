@@ -10,12 +10,13 @@
 //! That every curve that bounds no surface is told so: where no way to tell its sheets apart is consistent, it may be the cells.
 
 use super::front::Front;
-use super::{AreaHosts, ClosedPolylines, QuadMesh};
+use super::verify::euler;
+use super::{AreaFinding, AreaHosts, ClosedPolylines, QuadMesh};
 use crate::grid::{Grid2, Grid3, MAX_NODES};
 use crate::volumetric::error::{Place, Trouble};
 use crate::volumetric::frame::Cut;
 use crate::volumetric::mesher::{OnGrid, Stopped, mesh_cut};
-use crate::volumetric::volume::{grid_around, on_finer_grids, told};
+use crate::volumetric::volume::{copies_by_region, grid_around, on_finer_grids, told};
 use crate::volumetric::{VolumeError, VolumeParameters};
 use crate::{DVec2, Monitor};
 
@@ -39,6 +40,20 @@ pub struct AreaMesh {
     pub refinements: u32,
 }
 
+impl AreaMesh {
+    /// How many regions of the grid the quadrilaterals hold copies of.
+    #[must_use]
+    pub fn region_count(&self) -> usize {
+        copies_by_region(&self.regions, &self.windings).len()
+    }
+
+    /// How many copies of regions there are.
+    #[must_use]
+    pub fn copy_count(&self) -> usize {
+        copies_by_region(&self.regions, &self.windings).iter().map(|&(_, copies)| copies as usize).sum()
+    }
+}
+
 /// Meshes the area that curves enclose, on their left. Coarsening, which the parameters may ask for, is not done.
 ///
 /// ```
@@ -52,6 +67,7 @@ pub struct AreaMesh {
 /// let area = mesh_area(&curves, &parameters, &Monitor::none())?;
 /// assert_eq!(area.windings, [0, 1, 2, 1]);
 /// assert_eq!(area.mesh.components().1, [1, 1]);
+/// assert_eq!((area.region_count(), area.copy_count()), (3, 4));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -163,25 +179,20 @@ fn wrong_component(
     turnings: &[[i64; 2]],
     area: &AreaMesh,
 ) -> Option<([u32; 2], &'static str)> {
-    let (of, characteristics) = area.mesh.components();
-    let component = |corner: u32| of[area.hosts.corners[corner as usize].quadrilateral as usize] as usize;
-    let cell_of =
-        |quadrilateral: u32| area.mesh.grid().cell_at(area.mesh.cells()[quadrilateral as usize] as usize);
-    let mut sums = vec![[0, 0]; characteristics.len()];
-    for (number, turning) in turnings.iter().enumerate() {
-        let corners = curves.corners(number);
-        let first = component(corners.start);
-        if let Some(torn) = corners.clone().find(|&corner| component(corner) != first) {
-            let cell = cell_of(area.hosts.corners[torn as usize].quadrilateral);
-            return Some((cell, "a curve passes from one component to another"));
+    let (findings, _) = euler(curves, turnings, area);
+    let (quadrilateral, what) = match *findings.first.first()? {
+        AreaFinding::Euler { component, .. } => {
+            let (of, _) = area.mesh.components();
+            let quadrilateral = of.iter().position(|&other| other == component)?;
+            (quadrilateral, "the component from here on is not what its curves bound")
         }
-        for (sum, turning) in sums[first].iter_mut().zip(turning) {
-            *sum += turning;
+        AreaFinding::Torn { corner, .. } => {
+            let host = area.hosts.corners[corner as usize].quadrilateral as usize;
+            (host, "a curve passes from one component to another")
         }
-    }
-    let wrong = sums.iter().zip(&characteristics).position(|([least, most], x)| x < least || x > most)?;
-    let quadrilateral = of.iter().position(|&component| component as usize == wrong)?;
-    Some((cell_of(quadrilateral as u32), "the component from here on is not what its curves bound"))
+        _ => return None,
+    };
+    Some((area.mesh.grid().cell_at(area.mesh.cells()[quadrilateral] as usize), what))
 }
 
 /// A place in a layer as one in the plane. What spans both sides of the layer has half as many nodes.

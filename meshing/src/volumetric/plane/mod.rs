@@ -13,6 +13,7 @@ mod polylines;
 mod quad_mesh;
 mod triangles;
 mod turning;
+mod verify;
 
 pub use area::{AreaMesh, mesh_area};
 pub use hosts::{AreaHost, AreaHosts};
@@ -20,3 +21,4 @@ pub use joined::JoinError;
 pub use polylines::{ClosedPolylines, PolylineDefects};
 pub use quad_mesh::{QuadMesh, QuadMeshError};
 pub use triangles::AreaTriangles;
+pub use verify::{AreaFinding, AreaVerification, verify_area};

@@ -148,29 +148,35 @@ impl fmt::Display for Finding {
 }
 
 /// What was found of one kind.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Findings {
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Findings<F = Finding> {
     /// How many.
     pub count: u64,
     /// The first of them.
-    pub first: Vec<Finding>,
+    pub first: Vec<F>,
 }
 
-impl Findings {
+impl<F> Default for Findings<F> {
+    fn default() -> Self {
+        Self { count: 0, first: Vec::new() }
+    }
+}
+
+impl<F> Findings<F> {
     /// Whether all is as it must be.
     #[must_use]
     pub fn none(&self) -> bool {
         self.count == 0
     }
 
-    fn add(&mut self, finding: Finding) {
+    pub(super) fn add(&mut self, finding: F) {
         self.count += 1;
         if self.first.len() < MOST_LISTED {
             self.first.push(finding);
         }
     }
 
-    fn merge(lists: impl IntoIterator<Item = Self>) -> Self {
+    pub(super) fn merge(lists: impl IntoIterator<Item = Self>) -> Self {
         let mut all = Self::default();
         for list in lists {
             all.count += list.count;
