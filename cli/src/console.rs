@@ -6,6 +6,7 @@
 
 use crate::codes::Code;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::progress::Progress;
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal, Write};
@@ -97,8 +98,9 @@ impl Console {
         }
     }
 
-    /// The result for scripts: written with `--json` only.
+    /// The result for scripts: written with `--json` only. With it the run ends.
     pub(crate) fn object(&self, object: &Value) -> Result<(), Box<Failure>> {
+        interrupt::end_begins();
         if self.json {
             write_json_once(object).map_err(|error| standard_output_failed(&error))
         } else {

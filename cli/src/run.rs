@@ -77,6 +77,7 @@ fn run(cli: Cli) -> Outcome {
         Command::Doctor(args) => doctor::run(&args, &run),
         Command::Completions(args) => completions::run(&args, &run),
     };
+    interrupt::end_begins();
     run.console.progress.clear();
     run.console.detail(1, &format!("{:<24} {:>9.3} s", "total", run.console.started.elapsed().as_secs_f64()));
     if let Some(peak) = machine::peak_memory() {

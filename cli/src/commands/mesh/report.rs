@@ -8,7 +8,7 @@ use crate::failure::{Failure, shown};
 use crate::input::STANDARD;
 use crate::render::Cut;
 use crate::run::{Outcome, Run};
-use crate::{machine, numbers};
+use crate::{interrupt, machine, numbers};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -35,6 +35,7 @@ impl Report<'_> {
 
     /// Tells it; the exit code is that of the failure, if there is one.
     pub(super) fn tell(&self, run: &Run, seconds: &Seconds, failure: Option<Box<Failure>>) -> Outcome {
+        interrupt::end_begins();
         let (console, args, volume) = (&run.console, self.job.args, &self.facts.product.volume);
         if volume.ambiguous {
             console.note("the surface bounds other volumes too, which hang together in another way; this is one of them");
