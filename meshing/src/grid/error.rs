@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::{MAX_CELLS_ALONG_AXIS, MAX_NODES};
+use crate::io::text::Decimal;
 use crate::shapes::{MAX_LENGTH, MIN_LENGTH};
 
 /// Why a grid is refused.
@@ -10,13 +11,13 @@ use crate::shapes::{MAX_LENGTH, MIN_LENGTH};
 #[non_exhaustive]
 pub enum GridError {
     /// The spacing is no length.
-    #[error("spacing is {spacing}, must be a length between {MIN_LENGTH:e} and {MAX_LENGTH:e}")]
+    #[error("spacing is {}, must be a length between {MIN_LENGTH:e} and {MAX_LENGTH:e}", Decimal(*spacing))]
     Spacing {
         /// The spacing asked for.
         spacing: f64,
     },
     /// A coordinate of the origin or of the box to be covered is not finite, or too large.
-    #[error("coordinate {axis} is {value}, must be at most {MAX_LENGTH:e} in magnitude")]
+    #[error("coordinate {axis} is {}, must be at most {MAX_LENGTH:e} in magnitude", Decimal(*value))]
     Coordinate {
         /// 0 for x, 1 for y, 2 for z.
         axis: usize,
@@ -24,7 +25,7 @@ pub enum GridError {
         value: f64,
     },
     /// The box to be covered has its corners the wrong way round.
-    #[error("the box ends at {max} along axis {axis}, before it begins at {min}")]
+    #[error("the box ends at {} along axis {axis}, before it begins at {}", Decimal(*max), Decimal(*min))]
     Inverted {
         /// 0 for x, 1 for y, 2 for z.
         axis: usize,
@@ -34,7 +35,7 @@ pub enum GridError {
         max: f64,
     },
     /// No cell, or too many, along an axis.
-    #[error("{cells} cells along axis {axis}, must be from 1 to {MAX_CELLS_ALONG_AXIS}")]
+    #[error("{} cells along axis {axis}, must be from 1 to {MAX_CELLS_ALONG_AXIS}", Decimal(*cells))]
     Cells {
         /// 0 for x, 1 for y, 2 for z.
         axis: usize,

@@ -32,7 +32,7 @@ mod ply;
 mod polygon;
 mod source;
 mod stl;
-mod text;
+pub(crate) mod text;
 mod tokens;
 mod view;
 mod volume_builder;

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use std::fmt;
 
 /// The shortest decimal that is nearest to no other f64, with an exponent where the plain form would be long.
-pub(super) struct Decimal(pub(super) f64);
+pub(crate) struct Decimal(pub(crate) f64);
 
 impl fmt::Display for Decimal {
     #[inline]

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::grid::GridError;
+use crate::io::text::Decimal;
 use crate::{Cancelled, DVec3};
 
 /// Where something is: a box of cells.
@@ -19,7 +20,8 @@ pub struct Place {
 impl std::fmt::Display for Place {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let (min, max) = (self.min, self.max);
-        write!(f, "({}, {}, {}) to ({}, {}, {})", min.x, min.y, min.z, max.x, max.y, max.z)
+        let [a, b] = [min, max].map(|corner| corner.to_array().map(Decimal));
+        write!(f, "({}, {}, {}) to ({}, {}, {})", a[0], a[1], a[2], b[0], b[1], b[2])
     }
 }
 
@@ -31,7 +33,7 @@ pub enum VolumeError {
     #[error(transparent)]
     Grid(#[from] GridError),
     /// A parameter is out of its range.
-    #[error("{name} is {value}, must be {range}")]
+    #[error("{name} is {}, must be {range}", Decimal(*value))]
     Parameter {
         /// The parameter.
         name: &'static str,
@@ -75,8 +77,9 @@ pub enum VolumeError {
     },
     /// Features of the surface are too fine for the cells, at every size that was tried.
     #[error(
-        "cells of size {spacing} are too large at {place}: {what}; \
-         {refinements} refinements did not help, and a further one is beyond the limit"
+        "cells of size {} are too large at {place}: {what}; \
+         {refinements} refinements did not help, and a further one is beyond the limit",
+        Decimal(*spacing)
     )]
     UnderResolved {
         /// Where.
