@@ -82,6 +82,10 @@ codes! {
         "methods that take an embedded surface give wrong answers where it passes through itself";
     InsideOut = "W3025", 3, "inside out",
         "no volume has a boundary that winds around it the wrong way";
+    NoArea = "W3026", 3, "curves that bound no area",
+        "the turning numbers of curves that bound an area add up to its Euler characteristic, at most their number";
+    NotPlanar = "W3027", 3, "curves not in a plane",
+        "only curves in a plane of constant z have an inside";
 
     NotFound = "W4001", 4, "no such file or folder", "there is nothing to read";
     UnknownFormat = "W4002", 4, "unknown file format",

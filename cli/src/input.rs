@@ -106,6 +106,14 @@ impl Kind {
     }
 }
 
+/// What a file holds of surfaces and of lines.
+pub(crate) struct Drawn {
+    pub(crate) soup: TriangleSoup,
+    /// The vertices of each line, by index.
+    pub(crate) lines: Vec<Vec<u32>>,
+    pub(crate) held: ReadReport,
+}
+
 /// A surface file that is open and has passed every check that needs no reading.
 #[derive(Debug)]
 pub(crate) struct Input {
@@ -149,6 +157,19 @@ impl Input {
         let format = format()?;
         let (file, bytes) = open_file(name, memory_per_byte(format), reading)?;
         Ok(Self { name: name.to_owned(), format, bytes, stream: Stream::File(file) })
+    }
+
+    /// Reads the surface and the lines, of which only OBJ has any, and says what the file held besides.
+    pub(crate) fn read_with_lines(self, progress: &Progress) -> Result<Drawn, Box<Failure>> {
+        if self.format != Format::Obj {
+            let (soup, held) = self.read(progress)?;
+            return Ok(Drawn { soup, lines: Vec::new(), held });
+        }
+        let reader = Told::new(self.stream, progress, self.bytes.unwrap_or(0));
+        let read = welter_meshing::io::read_obj_with_lines(reader, &Limits::default());
+        let (soup, lines, held) =
+            read.map_err(|error| not_understood(&self.name, Kind::Surface(self.format), &error))?;
+        Ok(Drawn { soup, lines, held })
     }
 
     /// Reads the surface, and says what the file held besides.

@@ -3,7 +3,7 @@
 use crate::harness::Bench;
 
 /// Every source file of these tests: where codes are tried.
-const TESTS: [&str; 13] = [
+const TESTS: [&str; 14] = [
     include_str!("bad_input.rs"),
     include_str!("ccd.rs"),
     include_str!("check.rs"),
@@ -13,6 +13,7 @@ const TESTS: [&str; 13] = [
     include_str!("interrupt.rs"),
     include_str!("isosurface.rs"),
     include_str!("mesh.rs"),
+    include_str!("mesh_of_curves.rs"),
     include_str!("outputs.rs"),
     include_str!("render.rs"),
     include_str!("shape.rs"),

@@ -15,6 +15,7 @@ mod info;
 mod interrupt;
 mod isosurface;
 mod mesh;
+mod mesh_of_curves;
 mod outputs;
 mod render;
 mod shape;

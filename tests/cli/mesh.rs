@@ -361,9 +361,6 @@ fn surfaces_that_bound_no_volume_are_told_with_their_place() {
     bench.fails("mesh nan.obj -o a.vtu", "W3012", 3);
     bench.file("none.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
     bench.fails("mesh none.off -o a.vtu", "W3013", 3);
-    bench.file("curve.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3 1\n");
-    let error = bench.fails("mesh curve.obj -o a.vtu", "W3013", 3);
-    assert!(error["what"].as_str().unwrap().contains("lines"), "{error:#}");
     // Whole, and in part.
     bench.file("inward.obj", cube(0.0, 1.0, 1, true));
     let error = bench.fails("mesh inward.obj -o a.vtu -r 4", "W3025", 3);

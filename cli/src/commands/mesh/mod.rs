@@ -1,5 +1,5 @@
 //! `welter mesh`: the volume of a surface, as hexahedra or tetrahedra; where the surface overlaps itself, sheets of the mesh lie over
-//! one another and stay apart.
+//! one another and stay apart. Of a file of lines alone, the area of its curves (`plane`).
 
 mod by_default;
 mod cell_size;
@@ -10,6 +10,7 @@ mod groups;
 mod hosts;
 mod options;
 mod outputs;
+mod plane;
 mod product;
 mod refused;
 mod report;
@@ -20,7 +21,7 @@ use crate::codes::Code;
 use crate::console::Seconds;
 use crate::cutaway::{self, Cutaway, Problem};
 use crate::failure::Failure;
-use crate::input::Input;
+use crate::input::{Drawn, Input};
 use crate::numbers::{self, grouped};
 use crate::output::WriteProblem;
 use crate::render::{Cut, Image};
@@ -46,9 +47,6 @@ pub(crate) use by_default::Meshed;
 pub(crate) use options::Args;
 pub(crate) use volume_file::VolumeFormat;
 
-/// What the reader of OBJ calls lines.
-const LINES: &str = "`l` statements";
-
 /// What a run is about: known before the work.
 struct Job<'a> {
     args: &'a Args,
@@ -66,13 +64,21 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     }
     let input = Input::open(&args.input, &args.reading)?;
     let outputs = Outputs::prepare(args, run)?;
-    let (soup, held) = console.stage(&mut seconds, "reading", || input.read(&console.progress))?;
+    let Drawn { soup, lines, held } =
+        console.stage(&mut seconds, "reading", || input.read_with_lines(&console.progress))?;
     for ignored in &held.ignored {
         console.detail(2, &format!("{} ({}) passed over", ignored.what, grouped(ignored.count)));
     }
-    if soup.triangles.is_empty() && held.ignored.iter().any(|ignored| ignored.what == LINES) {
-        return Err(refused::lines_alone(args));
+    if soup.triangles.is_empty() && !lines.is_empty() {
+        return plane::run(args, &soup.positions, &lines, outputs, clock, seconds, run);
     }
+    if !lines.is_empty() {
+        console.note(&format!(
+            "{} lines passed over: there are triangles too, and their volume is meshed",
+            grouped(lines.len() as u64)
+        ));
+    }
+    drop(lines);
     let surface = console.stage(&mut seconds, "checking", || closed_oriented(soup, &args.input))?;
     let report = |p: welter_meshing::Progress| console.progress.report(p.stage, p.done, p.total);
     let monitor = Monitor::new(Some(&report), Some(clock.flag()));
@@ -84,7 +90,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     if let Some(note) = &job.chosen.note {
         console.note(note);
     }
-    let parameters = job.parameters(&surface)?;
+    let parameters = job.parameters()?;
 
     let volume = console
         .stage(&mut seconds, "meshing", || mesh_volume(&surface, &parameters, &monitor))
@@ -109,7 +115,7 @@ fn turned_outward(
 
 impl Job<'_> {
     /// What the mesher is told, after a look at the memory that it takes.
-    fn parameters(&self, surface: &ClosedOrientedMesh) -> Result<VolumeParameters, Box<Failure>> {
+    fn parameters(&self) -> Result<VolumeParameters, Box<Failure>> {
         let (args, spacing) = (self.args, self.chosen.spacing);
         let parameters = VolumeParameters {
             resolution: self.chosen.resolution,
@@ -126,7 +132,7 @@ impl Job<'_> {
         let fits = |halvings: u32| {
             self.measures.bytes(spacing * 0.5f64.powi(halvings as i32), args.tet) <= free as f64
         };
-        if !surface.triangles().is_empty() && !fits(0) {
+        if !self.measures.is_empty() && !fits(0) {
             return Err(self.over_memory(free));
         }
         let affordable = (0..parameters.max_refinements).take_while(|&halvings| fits(halvings + 1)).count();
@@ -136,13 +142,14 @@ impl Job<'_> {
     fn over_memory(&self, free: u64) -> Box<Failure> {
         let (args, spacing) = (self.args, self.chosen.spacing);
         let needed = self.measures.bytes(spacing, args.tet);
-        let hexahedra = match self.measures.hexahedra(spacing) {
+        let cells = match self.measures.cells(spacing) {
             count if count.is_finite() => format!("about {}", numbers::number(count)),
             _ => "more than 1e308".to_owned(),
         };
         let what = format!(
-            "cells of side {} are {hexahedra} hexahedra, which may take {}, and {} {}",
+            "cells of side {} are {cells} {}, which may take {}, and {} {}",
             numbers::number(spacing),
+            self.measures.cell_name(),
             if needed < 1e18 {
                 numbers::bytes(needed as u64)
             } else {
@@ -157,7 +164,7 @@ impl Job<'_> {
             Some(spacing) => {
                 let count = (self.measures.shortest_side() / spacing).floor();
                 let cells = if count >= 1.0 { format!(", or: -r {count}") } else { String::new() };
-                format!("-s {spacing}   # would fit{cells}")
+                format!("-s {spacing:?}   # would fit{cells}")
             }
             None => "no cells would fit: allow more memory, or take a simpler surface".to_owned(),
         };
@@ -215,11 +222,13 @@ impl Job<'_> {
             product: &product,
             topology: found.topology.as_ref(),
             verification: found.verification.as_ref(),
-            surface_volume: self.measures.volume,
+            surface_volume: self.measures.content,
         };
         let report = Report { job: self, facts, groups: &groups, cut: found.cut, dropped: &dropped };
         let failure = match &found.verification {
-            Some(verification) if !verification.passed() => Some(refused::not_verified(args, verification)),
+            Some(verification) if !verification.passed() => {
+                Some(refused::not_verified(args, verification.findings()))
+            }
             _ => found.stopped.map(|stage| self.clock.time_is_up(stage)),
         };
         report.tell(run, &seconds, failure)

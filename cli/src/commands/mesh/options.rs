@@ -9,7 +9,7 @@ use clap::ValueEnum;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Mesh the volume of a closed surface, which may intersect itself
+/// Mesh the volume of a closed surface, or the area of closed curves in the plane, which may intersect themselves
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Where a surface overlaps itself the sheets of its volume lie over one another, with hexahedra of their own: they
@@ -23,6 +23,10 @@ A .vtu file has the cells, with the fields copy (which of the sheets on its cell
 .mesh files have the faces of the boundary too, tagged with the groups of the surface, as .vtu has with --boundary.
 .msh and .vtu keep the names of the groups.
 
+An OBJ file of lines alone holds curves in a plane of constant z: closed, with the inside on their left. Their area
+is meshed with quadrilaterals, or with triangles by --tet, by the same rules and with the same fields; --outward,
+--hosts, --boundary, --coarsen, --cut and --camera are for surfaces alone.
+
 Exit codes: 3 when the surface is open, not oriented, or inside out somewhere; 6 when memory would not suffice;
 8 when features are too fine or the time is up (a mesh that is there by then is written); 9 when verification
 fails (the mesh is written).
@@ -31,9 +35,10 @@ Examples:
   welter mesh part.stl -o part.vtu
   welter mesh part.obj -o part.msh --tet -r 40
   welter mesh part.ply -o part.vtu -s 0.02 --hosts hosts.csv --picture part.png
+  welter mesh curve.obj -o area.vtu --picture area.png
   welter mesh part.ply -o part.vtu --json --max-memory 4000000000 --time-limit 60")]
 pub(crate) struct Args {
-    /// Surface to mesh (obj, ply, stl, off); `-` is standard input
+    /// Surface to mesh (obj, ply, stl, off), or curves (`l` statements of an obj without faces); `-` is standard input
     pub(super) input: PathBuf,
     /// File to write (vtu, msh, mesh), not overwritten without --force; `-` is standard output
     #[arg(short, long, value_name = "OUT")]
@@ -41,10 +46,10 @@ pub(crate) struct Args {
     /// Format of the output [default: by its extension]; needed for standard output
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub(super) to: Option<VolumeFormat>,
-    /// Write hexahedra, all of them cubes (the default)
+    /// Write hexahedra, all of them cubes (the default); of curves quadrilaterals, all of them squares
     #[arg(long, conflicts_with = "tet")]
     pub(super) hex: bool,
-    /// Write tetrahedra, about twelve for each hexahedron
+    /// Write tetrahedra, about twelve for each hexahedron; of curves triangles, about four for each quadrilateral
     #[arg(long)]
     pub(super) tet: bool,
     /// Cells along the shortest side of the bounding box [default: 63]
@@ -80,7 +85,7 @@ pub(crate) struct Args {
     /// Write, for each vertex of the surface, the cell that holds it, the vertices of this cell and their weights
     #[arg(long, value_name = "FILE.csv")]
     pub(super) hosts: Option<PathBuf>,
-    /// Draw the mesh cut open
+    /// Draw the mesh cut open; of curves the mesh from above, striped where sheets lie over one another
     #[arg(long, value_name = "FILE.png")]
     pub(super) picture: Option<PathBuf>,
     /// Plane of the cut, for example z=0.5 [default: where the most sheets lie over one another]

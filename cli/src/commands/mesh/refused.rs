@@ -6,7 +6,10 @@ use crate::codes::Code;
 use crate::failure::{Failure, shell_word};
 use crate::numbers::{self, grouped, point};
 use welter_meshing::DVec3;
-use welter_meshing::volumetric::{Place, Verification, VolumeError};
+use welter_meshing::volumetric::{Place, VolumeError};
+
+/// How the mesher begins to say that sheets could not be told apart.
+const SHEETS: &str = "no way to tell its sheets apart";
 
 /// What the mesher calls the cells of which there can be too many by a parameter.
 const CELLS_OF_GRID: &str = "cells of the grid";
@@ -19,33 +22,51 @@ pub(super) fn refused(job: &Job<'_>, error: &VolumeError) -> Box<Failure> {
     let failure = || because(error.to_string());
     match error {
         VolumeError::Grid(_) | VolumeError::Parameter { .. } => failure()
-            .place(format!("bounding box of {}", size(job.measures.sides)))
+            .place(format!("bounding box of {}", size(&job.measures)))
             .help("-r 63   # cells along the shortest side; or: -s LENGTH"),
         VolumeError::Empty => failure()
             .why("a surface without triangles bounds no volume")
             .help(format!("welter info {}", shell_word(&args.input))),
+        VolumeError::Negative { place, winding } if job.measures.plane => {
+            let what = format!(
+                "the curves run the wrong way round {}: they wind {winding} times there",
+                job.spot(middle(place))
+            );
+            because(what)
+                .place(job.in_words(place))
+                .why("the inside is on the left of curves: outer ones run counterclockwise, those of holes clockwise")
+                .help("reverse the order of the vertices of these curves")
+        }
         VolumeError::Negative { place, winding } => {
             let what = format!(
                 "the surface is inside out around {}: it winds {winding} times there",
-                point(middle(place))
+                job.spot(middle(place))
             );
             let failure = because(what);
-            failure.place(in_words(place)).help(look(args, place, &job.measures))
+            failure.place(job.in_words(place)).help(look(args, place, &job.measures))
         }
         VolumeError::TooManyCopies { place, copies, most } => {
             let what = format!(
                 "{copies} sheets lie over one another around {}, at most {most} can be told apart",
-                point(middle(place))
+                job.spot(middle(place))
             );
-            let failure = because(what);
-            failure.place(in_words(place)).help(look(args, place, &job.measures))
+            let help = if job.measures.plane {
+                "leave out curves that lie over others there".to_owned()
+            } else {
+                look(args, place, &job.measures)
+            };
+            because(what).place(job.in_words(place)).help(help)
         }
+        VolumeError::Turning { .. } => failure()
+            .help("divide a curve that winds twice without bounding an area, where it crosses itself"),
         VolumeError::UnderResolved { place, what, spacing, refinements } => {
+            let in_doubt = job.measures.plane || what.starts_with(SHEETS);
+            let doubt = if in_doubt { doubt(job) } else { String::new() };
             let finer = 0.5 * spacing;
             let what = format!(
                 "cells of side {} are too large around {}: {what}",
                 numbers::number(*spacing),
-                point(middle(place))
+                job.spot(middle(place))
             );
             let failure = because(what);
             let failure = match refinements {
@@ -56,22 +77,22 @@ pub(super) fn refused(job: &Job<'_>, error: &VolumeError) -> Box<Failure> {
             let needed = job.measures.bytes(finer, args.tet);
             let memory =
                 if needed.is_finite() { numbers::bytes(needed as u64) } else { "too much".to_owned() };
-            failure.place(in_words(place)).help(format!(
-                "welter mesh {} -o {} -s {finer}   # may take {memory} of memory",
+            failure.place(job.in_words(place)).help(format!(
+                "welter mesh {} -o {} -s {finer:?}   # may take {memory} of memory{doubt}",
                 shell_word(&args.input),
                 shell_word(&args.output)
             ))
         }
         VolumeError::TooLarge { what: CELLS_OF_GRID, count, most } => {
             let what = format!(
-                "cells of side {} are {} in the box of the surface, and {} are allowed",
+                "cells of side {} are {} in the bounding box, and {} are allowed",
                 numbers::number(job.chosen.spacing),
                 grouped(*count),
                 grouped(*most)
             );
-            let cells = |h: f64| job.measures.sides.to_array().map(|side| side / h + 3.0).iter().product();
+            let cells = |spacing| job.measures.cells_of_grid(spacing);
             let help = match job.measures.smallest_cells(*most as f64, cells) {
-                Some(spacing) => format!("-s {spacing}   # or: --max-cells {count}"),
+                Some(spacing) => format!("-s {spacing:?}   # or: --max-cells {count}"),
                 None => format!("--max-cells {count}"),
             };
             because(what).help(help)
@@ -82,22 +103,13 @@ pub(super) fn refused(job: &Job<'_>, error: &VolumeError) -> Box<Failure> {
     }
 }
 
-/// The failure for a file of lines without triangles.
-pub(super) fn lines_alone(args: &Args) -> Box<Failure> {
-    Failure::new(Code::NoTriangles, "there are lines and no triangles")
-        .subject(args.input.display().to_string())
-        .why(
-            "this command meshes the volume of surfaces, not the area of curves, which only the library does",
-        )
-        .help(format!("welter info {}", shell_word(&args.input)))
-}
-
 /// The code alone.
 pub(super) fn code_of(error: &VolumeError) -> Code {
     match error {
         VolumeError::Grid(_) | VolumeError::Parameter { .. } => Code::NoSuchCells,
         VolumeError::Empty => Code::NoTriangles,
         VolumeError::Negative { .. } => Code::InsideOut,
+        VolumeError::Turning { .. } => Code::NoArea,
         VolumeError::TooManyCopies { .. } => Code::TooManySheets,
         VolumeError::UnderResolved { .. } => Code::UnderResolved,
         VolumeError::TooLarge { what: CELLS_OF_GRID, .. } => Code::OverCells,
@@ -108,34 +120,58 @@ pub(super) fn code_of(error: &VolumeError) -> Code {
 }
 
 /// The failure for a mesh that was written and is wrong.
-pub(super) fn not_verified(args: &Args, verification: &Verification) -> Box<Failure> {
+pub(super) fn not_verified<F: ToString>(args: &Args, findings: impl Iterator<Item = F>) -> Box<Failure> {
     let failure = Failure::new(Code::MeshNotVerified, "the mesh that was written is wrong")
         .subject(args.output.display().to_string())
         .help(format!(
             "-s LENGTH   # smaller cells may help; and send {} with the command line to the authors",
             shell_word(&args.input)
         ));
-    verification.findings().fold(failure, |failure, finding| failure.place(finding.to_string()))
+    findings.fold(failure, |failure, finding| failure.place(finding.to_string()))
 }
 
 fn middle(place: &Place) -> DVec3 {
     place.min * 0.5 + place.max * 0.5
 }
 
-/// A box, and how many nodes of the grid it stands for.
-fn in_words(place: &Place) -> String {
-    let nodes = match place.nodes {
-        0 => String::new(),
-        1 => ", 1 node of the grid".to_owned(),
-        n => format!(", {} nodes of the grid", grouped(n)),
-    };
-    format!("{} to {}{nodes}", point(place.min), point(place.max))
+impl Job<'_> {
+    /// A point, of as many coordinates as there are.
+    fn spot(&self, p: DVec3) -> String {
+        if self.measures.plane {
+            format!("({}, {})", numbers::number(p.x), numbers::number(p.y))
+        } else {
+            point(p)
+        }
+    }
+
+    /// A box, and how many nodes of the grid it stands for.
+    fn in_words(&self, place: &Place) -> String {
+        let nodes = match place.nodes {
+            0 => String::new(),
+            1 => ", 1 node of the grid".to_owned(),
+            n => format!(", {} nodes of the grid", grouped(n)),
+        };
+        format!("{} to {}{nodes}", self.spot(place.min), self.spot(place.max))
+    }
+}
+
+/// What else may be the matter than cells where no way to tell sheets apart is consistent.
+fn doubt(job: &Job<'_>) -> String {
+    if job.measures.plane {
+        "; no cells help where the curves bound no area".to_owned()
+    } else {
+        format!(
+            "; no cells help where the surface bounds no volume, as where it is turned inside out around a vertex: \
+             welter check {} --pairs",
+            shell_word(&job.args.input)
+        )
+    }
 }
 
 /// The command that shows what is there: from the side that makes the widest picture of the place.
 fn look(args: &Args, place: &Place, measures: &Measures) -> String {
     let input = shell_word(&args.input);
-    if measures.volume < 0.0 && !args.outward {
+    if measures.content < 0.0 && !args.outward {
         return format!(
             "--outward   # turns it; to look: welter render {input} -o look.png, where blue is the inside"
         );
@@ -151,17 +187,20 @@ fn look(args: &Args, place: &Place, measures: &Measures) -> String {
     )
 }
 
-fn size(sides: DVec3) -> String {
-    format!("{} x {} x {}", numbers::number(sides.x), numbers::number(sides.y), numbers::number(sides.z))
+fn size(measures: &Measures) -> String {
+    let sides = measures.sides.to_array().map(numbers::number);
+    sides[..if measures.plane { 2 } else { 3 }].join(" x ")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::args::{Cli, Command};
+    use crate::commands::mesh::cell_size;
+    use crate::commands::mesh::clock::Clock;
     use clap::Parser;
     use welter_meshing::shapes::{Box_, box_};
-    use welter_meshing::volumetric::{Finding, Findings};
+    use welter_meshing::volumetric::{Finding, Findings, Verification};
 
     fn args(line: &str) -> Args {
         let cli = Cli::try_parse_from(line.split(' ')).expect("a command line");
@@ -181,13 +220,36 @@ mod tests {
     }
 
     #[test]
+    fn finer_cells_are_not_all_that_is_proposed_where_sheets_are_not_told_apart() {
+        let surface = box_(&Box_::default()).expect("a box");
+        let (args, measures) = (args("welter mesh a.ply -o a.vtu -s 1e300"), Measures::of(&surface));
+        let chosen = cell_size::choose(&measures, args.resolution, args.spacing);
+        let job = Job { args: &args, measures, chosen, clock: &Clock::start(None) };
+        let help = |what: &'static str| {
+            let place = Place { min: DVec3::ZERO, max: DVec3::ONE, nodes: 9 };
+            let error = VolumeError::UnderResolved { place, what, spacing: 1e300, refinements: 1 };
+            let failure = refused(&job, &error);
+            assert!(failure.what.len() < 200 && failure.places[0].ends_with("from side 1.00000e300"));
+            failure.help.clone()
+        };
+        let trouble = "no way to tell its sheets apart is consistent";
+        assert!(
+            help(trouble).starts_with("welter mesh a.ply -o a.vtu -s 5e299   # may take"),
+            "{}",
+            help(trouble)
+        );
+        assert!(help(trouble).ends_with("around a vertex: welter check a.ply --pairs"), "{}", help(trouble));
+        assert!(!help("a gap is within one cell").contains("no cells help"));
+    }
+
+    #[test]
     fn a_wrong_mesh_is_told_with_its_places() {
         let args = args("welter mesh a.ply -o a.vtu");
         let finding = Finding::Copies { cell: [1, 2, 3], hexahedra: 1, winding: 2 };
         let winding_copies = Findings { count: 1, first: vec![finding] };
         let verification = Verification { winding_copies, ..Verification::default() };
         assert!(!verification.passed());
-        let failure = not_verified(&args, &verification);
+        let failure = not_verified(&args, verification.findings());
         assert_eq!((failure.code, failure.code.exit()), (Code::MeshNotVerified, 9));
         assert!(failure.places[0].starts_with("cell (1, 2, 3) has 1 hexahedra"), "{}", failure.places[0]);
     }

@@ -88,7 +88,6 @@ impl VolumeWriting {
         product: &Product,
         boundary: &Boundary,
     ) -> Result<Vec<String>, Box<Failure>> {
-        let name = output.name().to_owned();
         let fields = product.fields(boundary);
         let position = |vertex: usize| product.position(vertex);
         let (hexahedra, tetrahedra) = match &product.tetrahedra {
@@ -104,20 +103,30 @@ impl VolumeWriting {
             groups: &boundary.names,
             ..VolumeView::new(product.vertex_count(), &position)
         };
-        let tags = (!boundary.tags.is_empty()).then_some(TAGS);
+        self.write_view(output, &view, (!boundary.tags.is_empty()).then_some(TAGS))
+    }
+
+    /// Writes cells, tagged by a field; returns what the format could not hold, in words.
+    pub(super) fn write_view(
+        &self,
+        output: Output,
+        view: &VolumeView<'_>,
+        tags: Option<&str>,
+    ) -> Result<Vec<String>, Box<Failure>> {
+        let name = output.name().to_owned();
         let report = output.write(|file| {
             let written = match self.format {
                 VolumeFormat::Vtu => {
                     let encoding = if self.ascii { VtkEncoding::Ascii } else { VtkEncoding::Appended };
-                    write_vtu(file, &view, encoding)
+                    write_vtu(file, view, encoding)
                 }
                 VolumeFormat::Msh => {
                     let encoding = if self.ascii { Encoding::Ascii } else { Encoding::Binary };
-                    write_msh(file, &view, &MshOptions { version: self.msh, encoding, tags })
+                    write_msh(file, view, &MshOptions { version: self.msh, encoding, tags })
                 }
                 VolumeFormat::Mesh => write_medit(
                     file,
-                    &view,
+                    view,
                     &MeditOptions { cell_references: tags, ..MeditOptions::default() },
                 ),
             };

@@ -197,10 +197,10 @@ fn copies(
             stage.check()?;
             let (below, above) = (numbers(j), numbers(j + 1));
             let (mut findings, mut compared) = (Findings::default(), 0);
-            let mut cell = grid.cell_index([0, j]) as u64;
-            let mut place = mesh.cells().partition_point(|&c| c < cell);
-            let mut touch = touched.partition_point(|&c| c < cell);
-            for i in 0..nx {
+            let begin = grid.cell_index([0, j]) as u64;
+            let mut place = mesh.cells().partition_point(|&c| c < begin);
+            let mut touch = touched.partition_point(|&c| c < begin);
+            for (i, cell) in (0..nx).zip(begin..) {
                 let before = place;
                 while mesh.cells().get(place) == Some(&cell) {
                     place += 1;
@@ -219,7 +219,6 @@ fn copies(
                 if difference < 0 || (difference > 0 && !is_touched) {
                     findings.add(AreaFinding::Copies { cell: [i, j], quadrilaterals, winding });
                 }
-                cell += 1;
             }
             stage.advance(1);
             Ok((findings, compared))
