@@ -353,7 +353,7 @@ pub(crate) fn not_understood(name: &Path, kind: Kind, error: &ReadError) -> Box<
         ReadError::Unsupported { .. } => {
             let help = match kind {
                 Kind::Surface(_) => "write it as plain triangles or polygons",
-                Kind::Volume(VolumeFormat::Vtu) => "write it in one piece, without compression",
+                Kind::Volume(VolumeFormat::Vtu) => "write it in one piece, compressed by zlib or not at all",
                 Kind::Volume(_) => "write it as MSH 2.2 or 4.1, or as MEDIT text",
             };
             (Code::UnsupportedContent, help.to_owned())

@@ -2,6 +2,7 @@
 //! and what other programs read of files written here.
 
 mod accepted;
+mod compressed;
 mod consumers;
 mod malformed;
 mod round_trips;

@@ -100,8 +100,8 @@ fn vtu_says_the_byte() {
             "byte 43: the file ends here, expected a `<Piece>`",
         ),
         (
-            "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkZLibDataCompressor\">",
-            "byte 0: compression by `vtkZLibDataCompressor` is not supported",
+            "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\">",
+            "byte 0: compression by `vtkLZ4DataCompressor` is not supported",
         ),
         (
             "<VTKFile type=\"UnstructuredGrid\" byte_order=\"Middle\">",

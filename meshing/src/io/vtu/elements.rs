@@ -4,6 +4,7 @@ use std::io::Read;
 
 use super::numbers::{Block, Collector, Scalar};
 use super::xml::{self, Tag};
+use super::zlib::{Bytes, ZlibBlocks};
 use crate::io::FieldValues;
 use crate::io::error::{Place, ReadError, shown};
 use crate::io::source::Source;
@@ -38,9 +39,20 @@ pub(super) struct ArrayReader {
     pub(super) big_endian: bool,
     /// Size of the length before a block: 4 or 8 bytes.
     pub(super) header: usize,
+    /// Whether they are compressed by zlib.
+    pub(super) compressed: bool,
 }
 
 impl ArrayReader {
+    /// Where the bytes of an array go.
+    fn bytes(self, collector: Collector, expected: Option<u64>) -> Bytes {
+        if self.compressed {
+            Bytes::Zlib(ZlibBlocks::new(collector, self.header, expected))
+        } else {
+            Bytes::Plain(Block::new(collector, self.header, expected))
+        }
+    }
+
     /// Reads the element that `tag` opens, of an array for so many places; none if it holds no numbers.
     pub(super) fn element<R: Read>(
         self,
@@ -80,7 +92,7 @@ impl ArrayReader {
             }
             "ascii" => Body::Read(inline_text(source, tag, collector, expected)?),
             "binary" => {
-                let block = Block::new(collector, self.header, expected);
+                let block = self.bytes(collector, expected);
                 Body::Read(inline_base64(source, tag, block)?)
             }
             other => {
@@ -100,7 +112,7 @@ impl ArrayReader {
         base64: bool,
     ) -> Result<(), ReadError> {
         let collector = Collector::new(array.scalar, self.big_endian);
-        let mut block = Block::new(collector, self.header, array.expected);
+        let mut block = self.bytes(collector, array.expected);
         let name = || format!("the numbers of array {:?}", array.name);
         if base64 {
             let mut decoder = Decoder::default();
@@ -121,7 +133,7 @@ impl ArrayReader {
 }
 
 /// One character more.
-fn decode(decoder: &mut Decoder, block: &mut Block, character: u8, at: Place) -> Result<(), ReadError> {
+fn decode(decoder: &mut Decoder, block: &mut Bytes, character: u8, at: Place) -> Result<(), ReadError> {
     let mut bytes = Vec::new();
     decoder
         .push(character, &mut bytes)
@@ -185,7 +197,7 @@ fn next_word<R: Read>(source: &mut Source<R>) -> Result<Option<(&[u8], Place)>, 
 fn inline_base64<R: Read>(
     source: &mut Source<R>,
     tag: &Tag,
-    mut block: Block,
+    mut block: Bytes,
 ) -> Result<FieldValues<'static>, ReadError> {
     let mut decoder = Decoder::default();
     if !tag.empty {

@@ -6,10 +6,12 @@
 //!   memory.
 //! * Reading takes all three encodings, both byte orders, lengths of 32 or 64 bits and every number type of VTK: f32 becomes f64, small
 //!   integers i32, u32 i64. Voxels and pixels become hexahedra and quadrilaterals; cells of other types are passed over and reported.
-//! * Malformed input is a [`ReadError`] with the byte. Memory is proportional to the data that arrived.
+//! * Binary arrays may be compressed by zlib (`vtkZLibDataCompressor`), as VTK and PyVista write them by default; checksums are checked.
+//! * Malformed input is a [`ReadError`] with the byte. Memory is proportional to the data that arrived, inflated.
 //!
 //! # What it does not promise
-//! * Compressed files and files of several pieces are refused, as they need a library of their own and a rule to merge by.
+//! * Files of several pieces are refused, as they need a rule to merge by, and so is compression by other means than zlib. Nothing is
+//!   written compressed.
 //! * That VTK understands negative infinity in text: version 9.7 takes it for positive infinity, so values with infinities need one of the
 //!   binary encodings.
 //!
@@ -28,6 +30,7 @@ mod piece;
 mod read;
 mod write;
 mod xml;
+mod zlib;
 
 use std::io::{Read, Write};
 
@@ -77,7 +80,7 @@ pub fn write_vtu(
 /// `input` is read to its end in large blocks and needs no buffer of its own.
 ///
 /// # Errors
-/// [`ReadError`]: malformed, truncated, empty, compressed, over the limits, or the reader failed.
+/// [`ReadError`]: malformed, truncated, empty, compressed otherwise than by zlib, over the limits, or the reader failed.
 ///
 /// ```
 /// use welter_meshing::io::{Limits, read_vtu};

@@ -70,6 +70,15 @@ impl Collector {
         Self { scalar, big_endian, values, begun: Vec::new() }
     }
 
+    /// Bytes of a number.
+    pub(super) fn size(&self) -> u64 {
+        self.scalar.size() as u64
+    }
+
+    pub(super) fn big_endian(&self) -> bool {
+        self.big_endian
+    }
+
     /// How many whole numbers there are.
     pub(super) fn count(&self) -> u64 {
         self.values.len() as u64
@@ -205,30 +214,46 @@ impl Block {
 
     /// The length that the first bytes say, if it fits the array.
     fn length(&self, at: Place) -> Result<u64, ReadError> {
-        let mut bytes = [0; 8];
-        bytes[..self.header].copy_from_slice(&self.begun);
-        if self.collector.big_endian {
-            bytes[..self.header].reverse();
-        }
-        let length = u64::from_le_bytes(bytes);
-        let size = self.collector.scalar.size() as u64;
-        let fits = match self.expected {
-            Some(count) => count.checked_mul(size) == Some(length),
-            None => length.is_multiple_of(size),
-        };
-        if fits {
-            return Ok(length);
-        }
-        let expected = match self.expected {
-            Some(count) => format!("{count} numbers of {size} bytes"),
-            None => format!("numbers of {size} bytes"),
-        };
-        Err(ReadError::Unexpected { at, expected, found: format!("{length} bytes") })
+        let length = number_of(&self.begun, self.collector.big_endian);
+        check_length(length, self.collector.size(), self.expected, at)?;
+        Ok(length)
     }
 
     pub(super) fn into_collector(self) -> Collector {
         self.collector
     }
+}
+
+/// The number of up to eight bytes.
+pub(super) fn number_of(bytes: &[u8], big_endian: bool) -> u64 {
+    let mut all = [0; 8];
+    let part = &mut all[..bytes.len()];
+    part.copy_from_slice(bytes);
+    if big_endian {
+        part.reverse();
+    }
+    u64::from_le_bytes(all)
+}
+
+/// An error unless so many bytes are an array of numbers of a size.
+pub(super) fn check_length(
+    length: u64,
+    size: u64,
+    expected: Option<u64>,
+    at: Place,
+) -> Result<(), ReadError> {
+    let fits = match expected {
+        Some(count) => count.checked_mul(size) == Some(length),
+        None => length.is_multiple_of(size),
+    };
+    if fits {
+        return Ok(());
+    }
+    let expected = match expected {
+        Some(count) => format!("{count} numbers of {size} bytes"),
+        None => format!("numbers of {size} bytes"),
+    };
+    Err(ReadError::Unexpected { at, expected, found: format!("{length} bytes") })
 }
 
 #[cfg(test)]

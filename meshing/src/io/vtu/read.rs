@@ -71,10 +71,14 @@ fn layout(root: &Tag) -> Result<ArrayReader, ReadError> {
         let expected = "`UnstructuredGrid` as `type` of the file";
         return Err(ReadError::unexpected(at, expected, kind.as_bytes()));
     }
-    if let Some(compressor) = root.attribute("compressor").filter(|name| !name.is_empty()) {
-        let what = format!("compression by {}", crate::io::error::shown(compressor.as_bytes()));
-        return Err(ReadError::Unsupported { at, what });
-    }
+    let compressed = match root.attribute("compressor").unwrap_or_default() {
+        "" => false,
+        "vtkZLibDataCompressor" => true,
+        other => {
+            let what = format!("compression by {}", crate::io::error::shown(other.as_bytes()));
+            return Err(ReadError::Unsupported { at, what });
+        }
+    };
     let big_endian = match root.attribute("byte_order").unwrap_or("LittleEndian") {
         "LittleEndian" => false,
         "BigEndian" => true,
@@ -90,7 +94,7 @@ fn layout(root: &Tag) -> Result<ArrayReader, ReadError> {
             return Err(ReadError::unexpected(at, "`UInt32` or `UInt64` as `header_type`", other.as_bytes()));
         }
     };
-    Ok(ArrayReader { big_endian, header })
+    Ok(ArrayReader { big_endian, header, compressed })
 }
 
 /// Reads the numbers behind the XML.
