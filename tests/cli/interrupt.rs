@@ -71,7 +71,7 @@ fn ctrl_c_after_the_work_changes_nothing() {
     let mut out = vec![0];
     child.stdout.as_mut().unwrap().read_exact(&mut out).unwrap();
     kill(&child);
-    std::thread::sleep(Duration::from_millis(100));
+    std::thread::sleep(Duration::from_millis(50));
     let rest = Ran::of(child.wait_with_output().unwrap());
     assert_eq!((rest.exit, rest.err.contains("W0130")), (whole.exit, false), "{}", rest.err);
     let text = String::from_utf8(out).unwrap() + &rest.out;
