@@ -13,6 +13,7 @@ pub mod exact;
 pub mod fuzz;
 pub mod generate;
 pub mod mesher;
+pub mod surface;
 pub mod volumetric;
 
 /// The code in the project's README is compiled and run.

@@ -4,6 +4,10 @@
 //! [`collision`]: when moving primitives first touch or come within a distance of each other, where, and along which normal.
 //! It promises never to be late and to miss nothing, proven for every finite `f64`.
 //!
+//! [`surface`]: the state of a surface tracker: triangles, masses and attributes that change together, by splits, flips
+//! and collapses of edges, merging and separation. It promises that edges stay balanced, and says beforehand what a
+//! change would do to the topology.
+//!
 //! [`queries`]: the reader of continuous collision queries with known answers.
 //!
 //! # What it will promise
@@ -17,3 +21,4 @@
 
 pub mod collision;
 pub mod queries;
+pub mod surface;

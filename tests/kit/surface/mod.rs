@@ -1,0 +1,9 @@
+//! Surfaces of the tracker, slow and obvious: [`PlainSurface`], a list of triangles that is rebuilt by every operation.
+
+mod meshes;
+mod plain;
+mod replay;
+
+pub use meshes::{Named, closed_surfaces, non_manifold_surfaces, open_surfaces, tube_between};
+pub use plain::PlainSurface;
+pub use replay::Replay;

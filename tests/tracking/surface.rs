@@ -1,0 +1,6 @@
+//! The state of the surface tracker: connectivity, attributes, masses and the log.
+
+mod attributes;
+mod construction;
+mod named;
+mod random;

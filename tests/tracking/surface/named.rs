@@ -1,0 +1,137 @@
+//! Operations on surfaces small enough to be drawn.
+
+use glam::DVec3;
+use welter_kit::surface::{closed_surfaces, non_manifold_surfaces};
+use welter_meshing::surface::{TriId, TriMesh, TriangleSoup, VertexId};
+use welter_tracking::surface::{EventKind, HalfEdge, MovingSurface, Refusal, Rule};
+
+fn surface(vertices: u32, triangles: &[[u32; 3]]) -> MovingSurface {
+    let positions = (0..vertices).map(f64::from).map(|i| DVec3::new(i, i * i, i * i * i)).collect();
+    let soup = TriangleSoup { positions, triangles: triangles.to_vec(), ..TriangleSoup::default() };
+    MovingSurface::new(&TriMesh::new(soup).unwrap()).unwrap()
+}
+
+/// A prism around a ring of three edges: vertices 0, 1, 2 of the ring, apexes 3 below and 4 above.
+fn bipyramid() -> MovingSurface {
+    surface(5, &[[0, 1, 4], [1, 2, 4], [2, 0, 4], [1, 0, 3], [2, 1, 3], [0, 2, 3]])
+}
+
+fn edge(surface: &MovingSurface, a: u32, b: u32) -> welter_meshing::surface::EdgeId {
+    surface.connectivity().edge_between(VertexId(a), VertexId(b)).unwrap()
+}
+
+#[test]
+fn a_tetrahedron_collapses_into_nothing() {
+    let mut tetrahedron = MovingSurface::new(&closed_surfaces().swap_remove(0).1).unwrap();
+    let plan = tetrahedron.plan_collapse(edge(&tetrahedron, 0, 1), VertexId(0), 0.5).unwrap();
+    let told = tetrahedron.consequences(&plan);
+    assert_eq!(told.cancelled.len(), 1);
+    assert_eq!(told.lost_vertices, [0, 1, 2, 3].map(VertexId));
+    tetrahedron.apply(plan);
+    assert_eq!(tetrahedron.connectivity().triangle_count(), 0);
+    assert_eq!(tetrahedron.check(), Ok(()));
+    assert_eq!(tetrahedron.log().get(0).unwrap().triangles.len(), 4);
+    tetrahedron.compact();
+    assert_eq!(tetrahedron.connectivity().vertex_slots(), 0);
+}
+
+#[test]
+fn a_ring_of_three_edges_is_told_before_it_collapses() {
+    // Two prisms on one another: the ring 0, 1, 2 has no triangle, so a collapse of 0-1 joins 0-2 with 1-2.
+    let upper = [[1, 0, 5], [5, 0, 4], [2, 1, 6], [6, 1, 5], [0, 2, 4], [4, 2, 6], [5, 4, 6]];
+    let lower = upper.map(|[a, b, c]: [u32; 3]| [b, a, c].map(|v| if v < 3 { v } else { v + 3 }));
+    let mut prisms = surface(10, &[upper, lower].concat());
+    assert_eq!(prisms.connectivity().euler_characteristic(), 2);
+    let plan = prisms.plan_collapse(edge(&prisms, 0, 1), VertexId(0), 0.5).unwrap();
+    let told = prisms.consequences(&plan);
+    assert_eq!(told.joined_edges, [[VertexId(0), VertexId(2)]]);
+    assert_eq!((told.lost_vertices, told.cancelled), (vec![VertexId(1)], vec![]));
+    prisms.apply(plan);
+    assert_eq!(prisms.connectivity().edge_triangles(edge(&prisms, 0, 2)), 4);
+    assert_eq!(prisms.check(), Ok(()));
+}
+
+#[test]
+fn a_flip_onto_an_edge_that_exists_joins_it() {
+    let mut bipyramid = bipyramid();
+    // The apexes of 0-1 are 3 and 4, not joined yet: nothing else happens.
+    let sides = |s: &MovingSurface, a: u32, b: u32| {
+        let around: Vec<HalfEdge> = s.connectivity().around_edge(edge(s, a, b)).collect();
+        [around[0], around[1]]
+    };
+    let plan = bipyramid.plan_flip(sides(&bipyramid, 0, 1)).unwrap();
+    assert_eq!(bipyramid.consequences(&plan), Default::default());
+    bipyramid.apply(plan);
+    // Now those of 1-2 are 3 and 4 again: the edge 3-4 joins four triangles.
+    let plan = bipyramid.plan_flip(sides(&bipyramid, 1, 2)).unwrap();
+    let told = bipyramid.consequences(&plan);
+    assert_eq!(told.cancelled.len(), 1, "{told:?}");
+    bipyramid.apply(plan);
+    assert_eq!(bipyramid.check(), Ok(()));
+    let kind = bipyramid.log().get(1).unwrap().kind;
+    assert!(matches!(kind, EventKind::Flip { .. }), "{kind:?}");
+}
+
+#[test]
+fn half_edges_of_the_same_way_are_not_flipped() {
+    let five = MovingSurface::new(&non_manifold_surfaces().swap_remove(1).1).unwrap();
+    let mesh = five.connectivity();
+    let shared = edge(&five, 0, 1);
+    assert_eq!(mesh.edge_triangles(shared), 10);
+    let forward: Vec<HalfEdge> =
+        mesh.around_edge(shared).filter(|&h| mesh.tail(h) == VertexId(0)).take(2).collect();
+    let half_edges = [forward[0], forward[1]];
+    assert_eq!(five.plan_flip(half_edges).unwrap_err(), Refusal::NotOpposite { half_edges });
+}
+
+#[test]
+fn three_triangles_at_an_edge_are_refused_with_the_edge() {
+    let square = surface(5, &[[0, 1, 2], [2, 1, 3]]);
+    let refusal = square.plan_replacement(&[], &[[1, 2, 4].map(VertexId)]).unwrap_err();
+    // Vertex 4 has no triangle, so it is not in use.
+    assert!(matches!(refusal, Refusal::Corners { .. }));
+    let square = surface(6, &[[0, 1, 2], [2, 1, 3], [3, 4, 5]]);
+    let refusal = square.plan_replacement(&[], &[[1, 2, 4].map(VertexId)]).unwrap_err();
+    assert_eq!(
+        refusal,
+        Refusal::Unbalanced { vertices: [VertexId(1), VertexId(2)], forward: 2, backward: 1 }
+    );
+}
+
+#[test]
+fn the_same_triangle_is_refused_and_its_reverse_cancels() {
+    let mut one = surface(3, &[[0, 1, 2]]);
+    let again = one.plan_replacement(&[], &[[1, 2, 0].map(VertexId)]).unwrap_err();
+    assert_eq!(again, Refusal::Doubled { corners: [0, 1, 2].map(VertexId) });
+    let reverse = one.plan_replacement(&[], &[[2, 1, 0].map(VertexId)]).unwrap();
+    assert_eq!(one.consequences(&reverse).cancelled, [[None, Some(TriId(0))]]);
+    one.apply(reverse);
+    assert_eq!(one.connectivity().triangle_count(), 0);
+}
+
+#[test]
+fn an_edge_of_many_triangles_is_split_as_a_whole() {
+    let mut five = MovingSurface::new(&non_manifold_surfaces().swap_remove(1).1).unwrap();
+    let triangles = five.connectivity().triangle_slots();
+    let areas = five.triangle_attributes_mut().add("area", vec![1.0; triangles], Rule::Conserve).unwrap();
+    let shared = edge(&five, 0, 1);
+    let plan = five.plan_split(shared, 0.25).unwrap();
+    let outcome = five.apply(plan);
+    assert_eq!(outcome.triangles.len(), 10);
+    let m = outcome.vertices[0];
+    assert_eq!(five.connectivity().vertex_triangles(m), 20);
+    let parts: Vec<f64> =
+        outcome.triangles.iter().map(|t| five.triangle_attributes().values(areas)[t.index()]).collect();
+    assert_eq!(parts, [0.75; 10]);
+    assert!(!five.connectivity().has_edge(shared) || five.connectivity().ends(shared).contains(&m));
+}
+
+#[test]
+#[should_panic(expected = "a plan is for one state of a surface")]
+fn a_plan_of_an_earlier_state_is_not_applied() {
+    let mut bipyramid = bipyramid();
+    let plans: Vec<_> = (0..2).map(|_| bipyramid.plan_split(edge(&bipyramid, 0, 1), 0.5).unwrap()).collect();
+    for plan in plans {
+        bipyramid.apply(plan);
+    }
+}
