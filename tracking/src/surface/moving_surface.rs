@@ -1,7 +1,7 @@
 //! [`MovingSurface`]: positions, masses, attributes and connectivity that change together.
 
 use super::attributes::AttributeSet;
-use super::connectivity::{ConnectivityDefect, RadialConnectivity, SurfaceDefects};
+use super::connectivity::{ConnectivityDefect, OldIds, RadialConnectivity, SurfaceDefects};
 use super::log::{EventKind, EventLog};
 use super::mass::MassRule;
 use glam::DVec3;
@@ -235,23 +235,16 @@ impl MovingSurface {
     /// The surface as a mesh, numbered as [`MovingSurface::compact`] does; without groups and colours.
     #[must_use]
     pub fn to_mesh(&self) -> TriMesh {
-        let (vertices, triangles) = self.numbered();
-        let positions = vertices.iter().map(|&v| self.position(v)).collect();
-        let triangles = triangles.into_iter().map(|(_, corners)| corners.map(|v| v.0)).collect();
-        let soup = TriangleSoup { positions, triangles, ..TriangleSoup::default() };
-        TriMesh::new(soup).expect("positions are finite and corners differ")
-    }
-
-    /// Old ids of vertices and triangles in order, with the corners in new ids.
-    fn numbered(&self) -> (Vec<VertexId>, Vec<(TriId, [VertexId; 3])>) {
-        let vertices: Vec<VertexId> = self.connectivity.vertices().collect();
-        let mut new = vec![VertexId(u32::MAX); self.connectivity.vertex_slots()];
-        for (i, v) in (0..).map(VertexId).zip(&vertices) {
+        let mut new = vec![u32::MAX; self.connectivity.vertex_slots()];
+        let mut positions = Vec::with_capacity(self.connectivity.vertex_count());
+        for (i, v) in (0..).zip(self.connectivity.vertices()) {
             new[v.index()] = i;
+            positions.push(self.position(v));
         }
         let corners = |t| self.connectivity.corners(t).map(|v| new[v.index()]);
-        let triangles = self.connectivity.triangles().map(|t| (t, corners(t))).collect();
-        (vertices, triangles)
+        let triangles = self.connectivity.triangles().map(corners).collect();
+        let soup = TriangleSoup { positions, triangles, ..TriangleSoup::default() };
+        TriMesh::new(soup).expect("positions are finite and corners differ")
     }
 
     /// Numbers all elements anew, without gaps: vertices and triangles in their order, edges by their vertices.
@@ -260,36 +253,20 @@ impl MovingSurface {
     /// [`RadialConnectivity::new`]. So a surface that was stored in between goes on as one that was not. Linear in
     /// the number of elements.
     pub fn compact(&mut self) -> Renumbering {
-        let (vertices, triangles) = self.numbered();
-        let old = &self.connectivity;
-        let corners = triangles.iter().map(|&(_, corners)| corners).collect();
-        let compacted = RadialConnectivity::canonical(vertices.len(), corners);
-        let edges: Vec<(u32, bool)> = compacted
-            .edges
-            .iter()
-            .map(|slot| {
-                let h = slot.first;
-                let side = super::HalfEdge::of(triangles[h.triangle().index()].0, h.side());
-                let edge = old.edge(side);
-                let first = vertices[slot.ends[0].index()];
-                (edge.0, old.ends(edge)[0] != first)
-            })
-            .collect();
-        let kept = |values: &mut Vec<_>| *values = vertices.iter().map(|v| values[v.index()]).collect();
-        kept(&mut self.positions);
-        self.masses = vertices.iter().map(|v| self.masses[v.index()]).collect();
-        let same = |id: u32| (id, false);
-        self.vertex_attributes.renumber(&vertices.iter().map(|v| same(v.0)).collect::<Vec<_>>());
+        let OldIds { vertices, edges, triangles } = self.connectivity.compact();
+        // Old ids ascend, so values move down within their arrays.
+        for (new, old) in vertices.iter().enumerate() {
+            self.positions[new] = self.positions[old.index()];
+            self.masses[new] = self.masses[old.index()];
+        }
+        self.positions.truncate(vertices.len());
+        self.masses.truncate(vertices.len());
+        self.vertex_attributes.gather(vertices.iter().map(|v| v.index()));
+        self.triangle_attributes.gather(triangles.iter().map(|t| t.index()));
         self.edge_attributes.renumber(&edges);
-        self.triangle_attributes.renumber(&triangles.iter().map(|(t, _)| same(t.0)).collect::<Vec<_>>());
-        self.connectivity = compacted;
         self.revision += 1;
         self.log.push(EventKind::Compact, [], [], []);
-        Renumbering {
-            vertices,
-            edges: edges.into_iter().map(|(id, _)| EdgeId(id)).collect(),
-            triangles: triangles.into_iter().map(|(t, _)| t).collect(),
-        }
+        Renumbering { vertices, edges: edges.into_iter().map(|(edge, _)| edge).collect(), triangles }
     }
 
     /// Whether every invariant holds, from scratch. Near linear in the number of triangles.

@@ -2,6 +2,7 @@
 
 use super::transfer::Transfer;
 use super::{AttributeValue, Inherited, Rule};
+use welter_meshing::surface::EdgeId;
 
 /// The values of one attribute, by id; those of free ids are without meaning.
 #[derive(Clone, Debug)]
@@ -60,10 +61,20 @@ impl<T: AttributeValue> Column<T> {
         }
     }
 
-    /// Moves the value of each old id to its new place.
-    pub(super) fn renumber(&mut self, old: &[(u32, bool)]) {
-        let moved = old.iter().map(|&(id, reversed)| {
-            let value = self.values[id as usize];
+    /// Gives each new id the value of an old one, which is not smaller; old ids ascend.
+    pub(super) fn gather(&mut self, old: impl Iterator<Item = usize>) {
+        let mut count = 0;
+        for old in old {
+            self.values[count] = self.values[old];
+            count += 1;
+        }
+        self.values.truncate(count);
+    }
+
+    /// Gives each new edge the value of an old one; with true, of the opposite direction.
+    pub(super) fn renumber(&mut self, old: &[(EdgeId, bool)]) {
+        let moved = old.iter().map(|&(edge, reversed)| {
+            let value = self.values[edge.index()];
             if self.directed && reversed { value.negated() } else { value }
         });
         self.values = moved.collect();

@@ -157,16 +157,24 @@ impl<Id> AttributeSet<Id> {
         self.columns.integers.iter_mut().for_each(|column| column.transfer(transfer, slots));
     }
 
-    /// Gives each new id the value of an old one; with true, of the opposite direction.
-    pub(crate) fn renumber(&mut self, old: &[(u32, bool)]) {
+    /// Gives each new id the value of an old one; old ids ascend.
+    pub(crate) fn gather(&mut self, old: impl ExactSizeIterator<Item = usize> + Clone) {
+        self.slots = old.len();
+        self.columns.scalars.iter_mut().for_each(|column| column.gather(old.clone()));
+        self.columns.vectors.iter_mut().for_each(|column| column.gather(old.clone()));
+        self.columns.integers.iter_mut().for_each(|column| column.gather(old.clone()));
+    }
+}
+
+impl AttributeSet<EdgeId> {
+    /// Gives each new edge the value of an old one; with true, of the opposite direction.
+    pub(crate) fn renumber(&mut self, old: &[(EdgeId, bool)]) {
         self.slots = old.len();
         self.columns.scalars.iter_mut().for_each(|column| column.renumber(old));
         self.columns.vectors.iter_mut().for_each(|column| column.renumber(old));
         self.columns.integers.iter_mut().for_each(|column| column.renumber(old));
     }
-}
 
-impl AttributeSet<EdgeId> {
     /// Adds an attribute whose sign depends on the direction in which an edge is passed; values count from the first
     /// of [`RadialConnectivity::ends`](crate::surface::RadialConnectivity::ends) to the second.
     ///

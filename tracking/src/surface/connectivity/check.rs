@@ -132,7 +132,7 @@ impl RadialConnectivity {
             let (mut cycle, mut h) = (0, first);
             while self.is_in_use(h) && self.edge(h) == edge && cycle <= sides_on[edge.index()] {
                 cycle += 1;
-                h = self.radial[h.0 as usize];
+                h = self.links[h.0 as usize].radial;
                 if h == first {
                     break;
                 }
@@ -152,11 +152,11 @@ impl RadialConnectivity {
             let (mut list, mut previous, mut h) = (0, NO_HALF_EDGE, slot.first);
             while self.is_in_use(h)
                 && self.tail(h) == vertex
-                && self.star_previous[h.0 as usize] == previous
+                && self.links[h.0 as usize].previous == previous
                 && list <= corners
             {
                 list += 1;
-                (previous, h) = (h, self.star_next[h.0 as usize]);
+                (previous, h) = (h, self.links[h.0 as usize].next);
             }
             if list != corners || h != NO_HALF_EDGE || slot.triangles as usize != corners {
                 return Err(ConnectivityDefect::Star { vertex, list, corners });
@@ -189,9 +189,12 @@ mod tests {
         let first = |vertex: u32| VertexId(vertex);
         let corners = broken(|mesh| mesh.triangles[0][0] = mesh.triangles[0][1]);
         assert!(matches!(corners, ConnectivityDefect::Corners { triangle: TriId(0), .. }));
-        let edge = broken(|mesh| mesh.edge_of.swap(0, 1));
+        let edge = broken(|mesh| {
+            let edge = mesh.links[1].edge;
+            mesh.links[1].edge = std::mem::replace(&mut mesh.links[0].edge, edge);
+        });
         assert!(matches!(edge, ConnectivityDefect::Edge { half_edge: HalfEdge(0), .. }));
-        let cycle = broken(|mesh| mesh.radial[0] = HalfEdge(0));
+        let cycle = broken(|mesh| mesh.links[0].radial = HalfEdge(0));
         assert!(matches!(cycle, ConnectivityDefect::Cycle { half_edges: 2, .. }));
         let empty = broken(|mesh| {
             mesh.edges.push(mesh.edges[0]);
@@ -200,8 +203,8 @@ mod tests {
         let star = broken(|mesh| mesh.vertices[0].triangles += 1);
         assert!(matches!(star, ConnectivityDefect::Star { vertex, .. } if vertex == first(0)));
         let list = broken(|mesh| {
-            let second = mesh.star_next[mesh.vertices[3].first.0 as usize];
-            mesh.star_previous[second.0 as usize] = NO_HALF_EDGE;
+            let second = mesh.links[mesh.vertices[3].first.0 as usize].next;
+            mesh.links[second.0 as usize].previous = NO_HALF_EDGE;
         });
         assert!(matches!(list, ConnectivityDefect::Star { vertex, list: 1, .. } if vertex == first(3)));
         for (free, name) in [
@@ -213,7 +216,7 @@ mod tests {
         }
         let double = broken(|mesh| {
             // Of the two half-edges on an edge one goes to an edge of its own.
-            let (one, other) = (HalfEdge(0), mesh.radial[0]);
+            let (one, other) = (HalfEdge(0), mesh.links[0].radial);
             let ends = mesh.ends(mesh.edge(one));
             mesh.unlink_edge(other);
             let own = mesh.new_edge(ends);

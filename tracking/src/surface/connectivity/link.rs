@@ -1,51 +1,51 @@
 //! Linking half-edges to their edges and vertices, and giving out ids.
 
-use super::{EdgeSlot, HalfEdge, NO_EDGE, NO_HALF_EDGE, NO_VERTEX, RadialConnectivity, VertexSlot};
+use super::{EdgeSlot, HalfEdge, Links, NO_EDGE, NO_HALF_EDGE, NO_VERTEX, RadialConnectivity, VertexSlot};
 use welter_meshing::surface::{EdgeId, TriId, VertexId};
 
 impl RadialConnectivity {
     pub(super) fn link_edge(&mut self, half_edge: HalfEdge, edge: EdgeId) {
         let h = half_edge.0 as usize;
-        self.edge_of[h] = edge;
+        self.links[h].edge = edge;
         let slot = &mut self.edges[edge.index()];
         if slot.first == NO_HALF_EDGE {
             slot.first = half_edge;
-            self.radial[h] = half_edge;
+            self.links[h].radial = half_edge;
         } else {
             let first = slot.first.0 as usize;
-            self.radial[h] = self.radial[first];
-            self.radial[first] = half_edge;
+            self.links[h].radial = self.links[first].radial;
+            self.links[first].radial = half_edge;
         }
     }
 
     pub(super) fn unlink_edge(&mut self, half_edge: HalfEdge) {
         let h = half_edge.0 as usize;
-        let slot = &mut self.edges[self.edge_of[h].index()];
-        let next = self.radial[h];
+        let slot = &mut self.edges[self.links[h].edge.index()];
+        let next = self.links[h].radial;
         if next == half_edge {
             slot.first = NO_HALF_EDGE;
         } else {
             let mut previous = next;
-            while self.radial[previous.0 as usize] != half_edge {
-                previous = self.radial[previous.0 as usize];
+            while self.links[previous.0 as usize].radial != half_edge {
+                previous = self.links[previous.0 as usize].radial;
             }
-            self.radial[previous.0 as usize] = next;
+            self.links[previous.0 as usize].radial = next;
             if slot.first == half_edge {
                 slot.first = previous;
             }
         }
-        self.radial[h] = NO_HALF_EDGE;
-        self.edge_of[h] = NO_EDGE;
+        self.links[h].radial = NO_HALF_EDGE;
+        self.links[h].edge = NO_EDGE;
     }
 
     pub(super) fn link_vertex(&mut self, half_edge: HalfEdge, vertex: VertexId) {
         let h = half_edge.0 as usize;
         self.triangles[half_edge.triangle().index()][half_edge.side()] = vertex;
         let slot = &mut self.vertices[vertex.index()];
-        self.star_previous[h] = NO_HALF_EDGE;
-        self.star_next[h] = slot.first;
+        self.links[h].previous = NO_HALF_EDGE;
+        self.links[h].next = slot.first;
         if slot.first != NO_HALF_EDGE {
-            self.star_previous[slot.first.0 as usize] = half_edge;
+            self.links[slot.first.0 as usize].previous = half_edge;
         }
         slot.first = half_edge;
         slot.triangles += 1;
@@ -53,18 +53,18 @@ impl RadialConnectivity {
 
     pub(super) fn unlink_vertex(&mut self, half_edge: HalfEdge) {
         let h = half_edge.0 as usize;
-        let (previous, next) = (self.star_previous[h], self.star_next[h]);
+        let (previous, next) = (self.links[h].previous, self.links[h].next);
         let slot = &mut self.vertices[self.triangles[half_edge.triangle().index()][half_edge.side()].index()];
         slot.triangles -= 1;
         if previous == NO_HALF_EDGE {
             slot.first = next;
         } else {
-            self.star_next[previous.0 as usize] = next;
+            self.links[previous.0 as usize].next = next;
         }
         if next != NO_HALF_EDGE {
-            self.star_previous[next.0 as usize] = previous;
+            self.links[next.0 as usize].previous = previous;
         }
-        (self.star_previous[h], self.star_next[h]) = (NO_HALF_EDGE, NO_HALF_EDGE);
+        (self.links[h].previous, self.links[h].next) = (NO_HALF_EDGE, NO_HALF_EDGE);
         self.triangles[half_edge.triangle().index()][half_edge.side()] = NO_VERTEX;
     }
 
@@ -72,10 +72,7 @@ impl RadialConnectivity {
         self.free_triangles.pop().unwrap_or_else(|| {
             let id = TriId::from_index(self.triangles.len());
             self.triangles.push([NO_VERTEX; 3]);
-            self.edge_of.extend([NO_EDGE; 3]);
-            for links in [&mut self.radial, &mut self.star_next, &mut self.star_previous] {
-                links.extend([NO_HALF_EDGE; 3]);
-            }
+            self.links.extend([Links::NONE; 3]);
             id
         })
     }

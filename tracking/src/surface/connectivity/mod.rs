@@ -39,6 +39,7 @@ mod fans;
 mod link;
 mod refusal;
 
+pub(crate) use build::OldIds;
 pub use check::ConnectivityDefect;
 pub use consequences::Consequences;
 pub use defects::{DoubledTriangles, SurfaceDefects};
@@ -51,6 +52,22 @@ use welter_meshing::surface::{EdgeId, TriId, VertexId};
 pub(crate) const NO_HALF_EDGE: HalfEdge = HalfEdge(u32::MAX);
 pub(crate) const NO_VERTEX: VertexId = VertexId(u32::MAX);
 pub(crate) const NO_EDGE: EdgeId = EdgeId(u32::MAX);
+
+/// What a half-edge is linked to. The links of one are read together, so they stand together in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Links {
+    pub(crate) edge: EdgeId,
+    /// The next half-edge on the same edge, in a cycle.
+    pub(crate) radial: HalfEdge,
+    /// The next and the previous in the list of half-edges out of the same vertex.
+    pub(crate) next: HalfEdge,
+    pub(crate) previous: HalfEdge,
+}
+
+impl Links {
+    pub(crate) const NONE: Self =
+        Self { edge: NO_EDGE, radial: NO_HALF_EDGE, next: NO_HALF_EDGE, previous: NO_HALF_EDGE };
+}
 
 /// An edge in use, or a free slot (`first` is [`NO_HALF_EDGE`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,11 +88,8 @@ pub(crate) struct VertexSlot {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RadialConnectivity {
     pub(crate) triangles: Vec<[VertexId; 3]>,
-    pub(crate) edge_of: Vec<EdgeId>,
-    /// The next half-edge on the same edge, in a cycle.
-    pub(crate) radial: Vec<HalfEdge>,
-    pub(crate) star_next: Vec<HalfEdge>,
-    pub(crate) star_previous: Vec<HalfEdge>,
+    /// By half-edge.
+    pub(crate) links: Vec<Links>,
     pub(crate) edges: Vec<EdgeSlot>,
     pub(crate) vertices: Vec<VertexSlot>,
     pub(crate) free_triangles: Vec<TriId>,
@@ -186,7 +200,7 @@ impl RadialConnectivity {
     #[inline]
     #[must_use]
     pub fn edge(&self, half_edge: HalfEdge) -> EdgeId {
-        self.edge_of[half_edge.0 as usize]
+        self.links[half_edge.0 as usize].edge
     }
 
     /// Where a half-edge begins.
@@ -226,7 +240,7 @@ impl RadialConnectivity {
     pub fn around_edge(&self, edge: EdgeId) -> impl Iterator<Item = HalfEdge> + '_ {
         assert!(self.has_edge(edge), "edge {} is not in use", edge.0);
         let first = self.edges[edge.index()].first;
-        let on = move |&h: &HalfEdge| Some(self.radial[h.0 as usize]).filter(|&next| next != first);
+        let on = move |&h: &HalfEdge| Some(self.links[h.0 as usize].radial).filter(|&next| next != first);
         std::iter::successors(Some(first), on)
     }
 
@@ -255,7 +269,7 @@ impl RadialConnectivity {
     pub fn star(&self, vertex: VertexId) -> impl Iterator<Item = HalfEdge> + '_ {
         let some = |h: HalfEdge| Some(h).filter(|&h| h != NO_HALF_EDGE);
         let first = some(self.vertices[vertex.index()].first);
-        std::iter::successors(first, move |&h| some(self.star_next[h.0 as usize]))
+        std::iter::successors(first, move |&h| some(self.links[h.0 as usize].next))
     }
 
     /// How many triangles a vertex has.
