@@ -248,6 +248,7 @@ fn compaction_takes_values_along() {
     let numbers = surface.compact();
     assert!(numbers.vertices.len() < v && numbers.edges.len() < e && numbers.triangles.len() < t);
     assert!(numbers.vertices.is_sorted() && numbers.triangles.is_sorted());
+    assert_eq!(surface.log().iter().last().map(|event| event.kind), Some(EventKind::Compact));
     let expect = |ids: Vec<u32>| ids.into_iter().map(i64::from).collect::<Vec<_>>();
     assert_eq!(
         surface.vertex_attributes().values(at_v),
