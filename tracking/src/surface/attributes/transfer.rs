@@ -78,14 +78,15 @@ impl Transfer {
             let each = share / heirs.len() as f64;
             rows.extend(heirs.into_iter().map(|heir| Entry::new(heir, source, 0.0, each)));
         }
-        let mut own = Vec::new();
-        for entry in &rows {
-            let target = entry.target;
-            let named = |rows: &[Entry]| rows.iter().any(|e| e.target == target && e.source == target);
-            if !births.contains(&target) && !named(&rows) && !named(&own) {
-                own.push(Entry::new(target, target, 1.0, 1.0));
-            }
-        }
+        let mut known: Vec<u32> = births.clone();
+        known.extend(rows.iter().filter(|entry| entry.source == entry.target).map(|entry| entry.target));
+        known.sort_unstable();
+        let mut targets: Vec<u32> = rows.iter().map(|entry| entry.target).collect();
+        targets.sort_unstable();
+        targets.dedup();
+        targets.retain(|target| known.binary_search(target).is_err());
+        let mut own: Vec<Entry> =
+            targets.into_iter().map(|target| Entry::new(target, target, 1.0, 1.0)).collect();
         own.extend(rows);
         own.sort_by_key(|entry| entry.target);
         Self::number_shares(&mut own);
@@ -93,12 +94,13 @@ impl Transfer {
     }
 
     fn number_shares(rows: &mut [Entry]) {
-        for i in 0..rows.len() {
-            let (done, rest) = rows.split_at_mut(i);
-            let (entry, rest) = rest.split_first_mut().expect("i is in range");
-            let same = |other: &&Entry| other.source == entry.source && other.share != 0.0;
-            entry.share_before = done.iter().rfind(same).map_or(0.0, |e| e.share_before + e.share);
-            entry.last = !rest.iter().any(|other| same(&other));
+        let mut order: Vec<usize> = (0..rows.len()).filter(|&i| rows[i].share != 0.0).collect();
+        order.sort_by_key(|&i| rows[i].source);
+        for (k, &i) in order.iter().enumerate() {
+            let source = rows[i].source;
+            let before = k.checked_sub(1).map(|k| rows[order[k]]).filter(|entry| entry.source == source);
+            rows[i].share_before = before.map_or(0.0, |entry| entry.share_before + entry.share);
+            rows[i].last = order.get(k + 1).is_none_or(|&next| rows[next].source != source);
         }
     }
 }

@@ -147,7 +147,7 @@ impl RadialConnectivity {
 
     /// Carries out a plan. Elements that go become free at the end, so that no id changes its meaning within a change.
     ///
-    /// `directed` lists the ends of new edges in the order in which they are to be directed; other new edges run
+    /// `directed` lists, ascending, the ends of new edges in the order in which they are to be directed; other new edges run
     /// from the smaller vertex to the larger.
     pub(crate) fn apply(&mut self, plan: &PlannedChange, directed: &[[VertexId; 2]]) -> Applied {
         let PlannedChange { change, sides: table, .. } = plan;
@@ -195,7 +195,7 @@ impl RadialConnectivity {
                     table.binary_search_by_key(&ends, |side| side.ends).expect("the table holds every side");
                 let edge = *edges[i].get_or_insert_with(|| {
                     let turned = [ends[1], ends[0]];
-                    self.new_edge(if directed.contains(&turned) { turned } else { ends })
+                    self.new_edge(if directed.binary_search(&turned).is_ok() { turned } else { ends })
                 });
                 self.link_edge(h, edge);
             }

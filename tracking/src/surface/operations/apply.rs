@@ -21,7 +21,10 @@ impl MovingSurface {
     /// If the surface has changed since the plan was made.
     pub fn apply(&mut self, plan: Plan) -> Outcome {
         assert_eq!(plan.revision, self.revision, "a plan is for one state of a surface");
-        let departures = Departures::of(&self.connectivity, &plan);
+        let mut departures = Departures::of(&self.connectivity, &plan);
+        if !self.edge_attributes.is_empty() {
+            departures.edges = Departures::of_edges(&self.connectivity, &plan);
+        }
         let change = &plan.change.change;
         let before: Vec<TriangleChange> = {
             let corners = |t| Some(self.connectivity.corners(t));
@@ -39,7 +42,8 @@ impl MovingSurface {
         };
         let old_ends: Vec<Option<[VertexId; 2]>> =
             plan.change.sides.iter().map(|side| side.edge.map(|edge| self.connectivity.ends(edge))).collect();
-        let directed: Vec<[VertexId; 2]> = plan.edges.iter().map(|source| source.target).collect();
+        let mut directed: Vec<[VertexId; 2]> = plan.edges.iter().map(|source| source.target).collect();
+        directed.sort_unstable();
         let applied = self.connectivity.apply(&plan.change, &directed);
         self.revision += 1;
 
@@ -146,11 +150,6 @@ impl Departures {
         let change = &plan.change.change;
         let removed = |t: &TriId| change.remove.contains(t);
         let sides = |t: TriId| (0..3).map(move |k| HalfEdge::of(t, k));
-        let sorted = |mut ids: Vec<u32>| {
-            ids.sort_unstable();
-            ids.dedup();
-            ids
-        };
         let triangles = change.remove.iter().map(|&t| {
             let beside = sides(t).flat_map(|h| mesh.around_edge(mesh.edge(h))).map(HalfEdge::triangle);
             let heirs: Vec<u32> = beside.filter(|t| !removed(t)).map(|t| t.0).collect();
@@ -160,13 +159,6 @@ impl Departures {
                 others.extend(near.filter(|t| !removed(t)).map(|t| t.0));
             }
             Departure { id: t.0, heirs: sorted(heirs), others: sorted(others) }
-        });
-        let gone = plan.change.sides.iter().filter(|side| side.after == [0, 0]);
-        let edges = gone.filter_map(|side| side.edge).map(|edge| {
-            let beside = mesh.around_edge(edge).flat_map(|h| [h.next(), h.previous()]);
-            let heirs = sorted(beside.map(|h| mesh.edge(h).0).collect());
-            let near = mesh.ends(edge).into_iter().flat_map(|v| mesh.edges_at(v)).map(|e| e.0);
-            Departure { id: edge.0, heirs, others: sorted(near.collect()) }
         });
         // A vertex goes if each of its triangles goes or loses it.
         let leaving = change
@@ -181,6 +173,28 @@ impl Departures {
             let beside = mesh.star(run[0]).flat_map(|h| [mesh.head(h), mesh.apex(h)]);
             Departure { id: run[0].0, heirs: sorted(beside.map(|v| v.0).collect()), others: Vec::new() }
         });
-        Self { vertices: vertices.collect(), edges: edges.collect(), triangles: triangles.collect() }
+        Self { vertices: vertices.collect(), edges: Vec::new(), triangles: triangles.collect() }
     }
+
+    /// The edges that go and may need heirs. Where nothing cancels those do not that share with another edge.
+    fn of_edges(mesh: &RadialConnectivity, plan: &Plan) -> Vec<Departure> {
+        let shared = plan.edges.iter().filter(|source| source.share != 0.0).map(|source| source.source);
+        let mut shared: Vec<EdgeId> = shared.collect();
+        shared.sort_unstable();
+        let alone = |edge: &EdgeId| !plan.change.cancelled.is_empty() || shared.binary_search(edge).is_err();
+        let gone = plan.change.sides.iter().filter(|side| side.after == [0, 0]);
+        let departure = |edge: EdgeId| {
+            let beside = mesh.around_edge(edge).flat_map(|h| [h.next(), h.previous()]);
+            let heirs = sorted(beside.map(|h| mesh.edge(h).0).collect());
+            let near = mesh.ends(edge).into_iter().flat_map(|v| mesh.edges_at(v)).map(|e| e.0);
+            Departure { id: edge.0, heirs, others: sorted(near.collect()) }
+        };
+        gone.filter_map(|side| side.edge).filter(alone).map(departure).collect()
+    }
+}
+
+fn sorted(mut ids: Vec<u32>) -> Vec<u32> {
+    ids.sort_unstable();
+    ids.dedup();
+    ids
 }
