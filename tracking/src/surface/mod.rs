@@ -27,9 +27,9 @@
 //! values come from (`attributes/transfer.rs`).
 //!
 //! # Complexity
-//! An operation depends on the stars that it touches, whatever the size of the surface. Links cost as much as the
-//! triangles there; consequences and values compare them with each other, so they cost the square of that number,
-//! which shows at vertices of hundreds of triangles. Compaction is linear in the number of elements.
+//! An operation costs about as much as the stars that it touches, whatever the size of the surface. Consequences compare
+//! the triangles there with each other, so they cost the square of their number, which shows at vertices of thousands.
+//! Compaction is linear in the number of elements.
 
 mod attributes;
 mod connectivity;
