@@ -148,7 +148,7 @@ fn main() {
         println!();
     }
     let mut last: Option<(f64, f64)> = None;
-    for cells in [32, 64, 128, 256, 300, 430] {
+    for cells in [32, 64, 128, 256, 300, 440] {
         let expected = (f64::from(cells) / 118.0).powi(3) * 1.26e6;
         if expected > most * 1e6 {
             break;
