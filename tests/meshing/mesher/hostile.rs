@@ -80,7 +80,14 @@ fn soups_are_meshed_or_refused_with_reason() {
         kinds.entry(kind).or_default().push(seed);
     }
     report(&kinds);
-    assert!(kinds.keys().filter(|kind| kind.contains("meshed")).count() > 1);
+    let positive = |meshed: bool| -> usize {
+        let wanted = kinds
+            .iter()
+            .filter(|(kind, _)| kind.starts_with("positive") && (!meshed || kind.contains("meshed")));
+        wanted.map(|(_, seeds)| seeds.len()).sum()
+    };
+    // The others have edges of so many triangles that the pieces that meet there bound no volume together.
+    assert!(10 * positive(true) >= 9 * positive(false), "too few soups are meshed, see above");
 }
 
 #[test]
