@@ -8,6 +8,9 @@
 //! and collapses of edges, merging and separation. It promises that edges stay balanced, and says beforehand what a
 //! change would do to the topology.
 //!
+//! [`broad_phase`]: which elements of such a surface may come near each other, at rest or along a step. It promises to miss
+//! none, without a tolerance, and to follow changes without being built anew.
+//!
 //! [`queries`]: the reader of continuous collision queries with known answers.
 //!
 //! # What it will promise
@@ -19,6 +22,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod broad_phase;
 pub mod collision;
 pub mod queries;
 pub mod surface;

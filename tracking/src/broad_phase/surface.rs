@@ -1,0 +1,366 @@
+//! [`BroadPhase`]: the trees of a surface's elements, and what is asked of them.
+
+use super::motion::Boxes;
+use super::tree::{Tree, pairs_between, self_pairs};
+use super::{BroadPhaseError, Motion};
+use crate::surface::{EventKind, EventLog, MovingSurface, RadialConnectivity};
+use rayon::prelude::*;
+use welter_meshing::spatial::Box3;
+use welter_meshing::surface::{EdgeId, TriId, VertexId};
+
+/// Boxes of all elements of a surface, to find those near each other.
+///
+/// Elements that meet by their ids are no candidates: a vertex and a triangle of which it is a corner, two edges with a common
+/// end, an edge and a triangle of which it is a side. An edge that shares one vertex with a triangle is a
+/// candidate, for the two may overlap in a plane.
+///
+/// ```
+/// use welter_meshing::{shapes, surface::EmbeddedMesh};
+/// use welter_tracking::broad_phase::{BroadPhase, Motion};
+/// use welter_tracking::surface::MovingSurface;
+///
+/// let sphere = shapes::sphere(&shapes::Sphere { edge_length: 0.25, ..Default::default() })?;
+/// let mut surface = MovingSurface::new(&EmbeddedMesh::new(sphere)?)?;
+/// let mut broad_phase = BroadPhase::new(&surface, Motion::Rest)?;
+/// let near = broad_phase.vertex_triangle_pairs(surface.connectivity(), 0.0)?;
+///
+/// // Nothing more is near where everything shrinks along straight lines by a little.
+/// let ends: Vec<_> = surface.positions().iter().map(|&p| 0.999 * p).collect();
+/// broad_phase.refresh(&surface, Motion::To(&ends))?;
+/// let swept = broad_phase.vertex_triangle_pairs(surface.connectivity(), 0.0)?;
+/// assert!(near.len() <= swept.len() && swept.len() < surface.connectivity().vertex_count() * 20);
+///
+/// // A change of the mesh costs what it touches.
+/// broad_phase.refresh(&surface, Motion::Rest)?;
+/// let edge = surface.connectivity().edges().next().expect("a sphere has edges");
+/// let plan = surface.plan_split(edge, 0.5)?;
+/// surface.apply(plan);
+/// broad_phase.follow(&surface, Motion::Rest, &surface.take_log())?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct BroadPhase {
+    vertices: Tree,
+    edges: Tree,
+    triangles: Tree,
+}
+
+fn checked(distance: f64) -> Result<f64, BroadPhaseError> {
+    if distance.is_finite() && distance >= 0.0 {
+        Ok(distance)
+    } else {
+        Err(BroadPhaseError::Distance { distance })
+    }
+}
+
+impl BroadPhase {
+    /// The boxes of a surface.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Ends`] or [`BroadPhaseError::End`] for a motion that is none of this surface.
+    pub fn new(surface: &MovingSurface, motion: Motion<'_>) -> Result<Self, BroadPhaseError> {
+        let boxes = Boxes::new(surface, motion)?;
+        let mesh = surface.connectivity();
+        boxes.check(mesh.vertices())?;
+        let vertices = || Tree::new(mesh.vertices().map(|v| v.0), |v| boxes.vertex(v));
+        let edges = || Tree::new(mesh.edges().map(|e| e.0), |e| boxes.edge(e));
+        let triangles = || Tree::new(mesh.triangles().map(|t| t.0), |t| boxes.triangle(t));
+        let (vertices, (edges, triangles)) = rayon::join(vertices, || rayon::join(edges, triangles));
+        Ok(Self { vertices, edges, triangles })
+    }
+
+    /// Gives all elements new boxes: their positions or the motion have changed. Linear; for elements whose
+    /// neighbours have become others it is as [`BroadPhase::new`].
+    ///
+    /// The elements must be those followed so far.
+    ///
+    /// # Errors
+    /// As [`BroadPhase::new`]; nothing is changed then.
+    ///
+    /// # Panics
+    /// May panic if the surface has other elements.
+    pub fn refresh(&mut self, surface: &MovingSurface, motion: Motion<'_>) -> Result<(), BroadPhaseError> {
+        let boxes = Boxes::new(surface, motion)?;
+        boxes.check(surface.connectivity().vertices())?;
+        let Self { vertices, edges, triangles } = self;
+        let refresh_vertices = || vertices.refresh(|v| boxes.vertex(v));
+        let refresh_edges = || edges.refresh(|e| boxes.edge(e));
+        let refresh_triangles = || triangles.refresh(|t| boxes.triangle(t));
+        rayon::join(refresh_vertices, || rayon::join(refresh_edges, refresh_triangles));
+        Ok(())
+    }
+
+    /// Takes part in the operations of a log, which led to the state that the surface has now.
+    ///
+    /// Parts of a log may be followed twice, but none left out.
+    ///
+    /// # Errors
+    /// As [`BroadPhase::new`]; nothing is changed then.
+    pub fn follow(
+        &mut self,
+        surface: &MovingSurface,
+        motion: Motion<'_>,
+        log: &EventLog,
+    ) -> Result<(), BroadPhaseError> {
+        if log.iter().any(|event| event.kind == EventKind::Compact) {
+            *self = Self::new(surface, motion)?;
+            return Ok(());
+        }
+        let mut touched = Touched::default();
+        for event in log.iter() {
+            touched.vertices.extend(event.vertices.iter().map(|change| change.vertex));
+            touched.edges.extend(event.edges.iter().map(|change| change.edge));
+            touched.triangles.extend(event.triangles.iter().map(|change| change.triangle));
+            if let EventKind::Collapse { kept, .. } = event.kind {
+                touched.star(surface.connectivity(), kept);
+            }
+        }
+        self.update(surface, motion, touched)
+    }
+
+    /// Takes in that some vertices have moved, or got other ends.
+    ///
+    /// # Errors
+    /// As [`BroadPhase::new`]; nothing is changed then.
+    ///
+    /// # Panics
+    /// If the id of a vertex was never given out.
+    pub fn moved(
+        &mut self,
+        surface: &MovingSurface,
+        motion: Motion<'_>,
+        vertices: &[VertexId],
+    ) -> Result<(), BroadPhaseError> {
+        let mut touched = Touched::default();
+        vertices.iter().for_each(|&v| touched.star(surface.connectivity(), v));
+        self.update(surface, motion, touched)
+    }
+
+    fn update(
+        &mut self,
+        surface: &MovingSurface,
+        motion: Motion<'_>,
+        touched: Touched,
+    ) -> Result<(), BroadPhaseError> {
+        let boxes = Boxes::new(surface, motion)?;
+        let mesh = surface.connectivity();
+        let Touched { vertices, edges, triangles } = touched.once();
+        let edge_ends = edges.iter().filter(|&&e| mesh.has_edge(e)).flat_map(|&e| mesh.ends(e));
+        let corners = triangles.iter().filter(|&&t| mesh.has_triangle(t)).flat_map(|&t| mesh.corners(t));
+        boxes.check(
+            vertices.iter().copied().filter(|&v| mesh.has_vertex(v)).chain(edge_ends).chain(corners),
+        )?;
+        for VertexId(v) in vertices {
+            set(&mut self.vertices, v, mesh.has_vertex(VertexId(v)), || boxes.vertex(v));
+        }
+        for EdgeId(e) in edges {
+            set(&mut self.edges, e, mesh.has_edge(EdgeId(e)), || boxes.edge(e));
+        }
+        for TriId(t) in triangles {
+            set(&mut self.triangles, t, mesh.has_triangle(TriId(t)), || boxes.triangle(t));
+        }
+        Ok(())
+    }
+
+    /// All vertices and triangles whose boxes are within a distance, sorted; without the corners of a triangle.
+    /// `mesh` is the surface that was followed, here and below.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`], as all that are given one.
+    pub fn vertex_triangle_pairs(
+        &self,
+        mesh: &RadialConnectivity,
+        distance: f64,
+    ) -> Result<Vec<(VertexId, TriId)>, BroadPhaseError> {
+        let keep = |v, t| !is_corner(mesh, v, t);
+        let pairs = pairs_between(&self.vertices, &self.triangles, checked(distance)?, keep);
+        Ok(pairs.into_par_iter().map(|[v, t]| (VertexId(v), TriId(t))).collect())
+    }
+
+    /// All pairs of edges whose boxes are within a distance, the smaller id first, sorted; without those with a common end.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn edge_edge_pairs(
+        &self,
+        mesh: &RadialConnectivity,
+        distance: f64,
+    ) -> Result<Vec<[EdgeId; 2]>, BroadPhaseError> {
+        let pairs = self_pairs(&self.edges, checked(distance)?, |a, b| !have_common_end(mesh, a, b));
+        Ok(pairs.into_par_iter().map(|pair| pair.map(EdgeId)).collect())
+    }
+
+    /// All edges and triangles whose boxes are within a distance, sorted; without the sides of a triangle.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn edge_triangle_pairs(
+        &self,
+        mesh: &RadialConnectivity,
+        distance: f64,
+    ) -> Result<Vec<(EdgeId, TriId)>, BroadPhaseError> {
+        let keep = |e, t| !is_side(mesh, e, t);
+        let pairs = pairs_between(&self.edges, &self.triangles, checked(distance)?, keep);
+        Ok(pairs.into_par_iter().map(|[e, t]| (EdgeId(e), TriId(t))).collect())
+    }
+
+    /// The vertices whose boxes are within a distance of a box, ascending. The box may be infinite; nothing is near an
+    /// empty one.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn vertices_near(&self, bounds: &Box3, distance: f64) -> Result<Vec<VertexId>, BroadPhaseError> {
+        let near = self.vertices.near(bounds, checked(distance)?, |_| true);
+        Ok(near.into_iter().map(VertexId).collect())
+    }
+
+    /// The edges whose boxes are within a distance of a box, as [`BroadPhase::vertices_near`].
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn edges_near(&self, bounds: &Box3, distance: f64) -> Result<Vec<EdgeId>, BroadPhaseError> {
+        let near = self.edges.near(bounds, checked(distance)?, |_| true);
+        Ok(near.into_iter().map(EdgeId).collect())
+    }
+
+    /// The triangles whose boxes are within a distance of a box, as [`BroadPhase::vertices_near`].
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn triangles_near(&self, bounds: &Box3, distance: f64) -> Result<Vec<TriId>, BroadPhaseError> {
+        let near = self.triangles.near(bounds, checked(distance)?, |_| true);
+        Ok(near.into_iter().map(TriId).collect())
+    }
+
+    /// The triangles that [`BroadPhase::vertex_triangle_pairs`] has with one vertex; none for one not in use, here and below.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn triangles_near_vertex(
+        &self,
+        mesh: &RadialConnectivity,
+        vertex: VertexId,
+        distance: f64,
+    ) -> Result<Vec<TriId>, BroadPhaseError> {
+        let keep = |t| !is_corner(mesh, vertex.0, t);
+        let near = beside(&self.triangles, self.vertices.bounds(vertex.0), checked(distance)?, keep);
+        Ok(near.into_iter().map(TriId).collect())
+    }
+
+    /// The vertices that [`BroadPhase::vertex_triangle_pairs`] has with one triangle.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn vertices_near_triangle(
+        &self,
+        mesh: &RadialConnectivity,
+        triangle: TriId,
+        distance: f64,
+    ) -> Result<Vec<VertexId>, BroadPhaseError> {
+        let keep = |v| !is_corner(mesh, v, triangle.0);
+        let near = beside(&self.vertices, self.triangles.bounds(triangle.0), checked(distance)?, keep);
+        Ok(near.into_iter().map(VertexId).collect())
+    }
+
+    /// The edges that [`BroadPhase::edge_edge_pairs`] has with one edge.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn edges_near_edge(
+        &self,
+        mesh: &RadialConnectivity,
+        edge: EdgeId,
+        distance: f64,
+    ) -> Result<Vec<EdgeId>, BroadPhaseError> {
+        // An edge has both ends in common with itself.
+        let keep = |e| !have_common_end(mesh, edge.0, e);
+        let near = beside(&self.edges, self.edges.bounds(edge.0), checked(distance)?, keep);
+        Ok(near.into_iter().map(EdgeId).collect())
+    }
+
+    /// The triangles that [`BroadPhase::edge_triangle_pairs`] has with one edge.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn triangles_near_edge(
+        &self,
+        mesh: &RadialConnectivity,
+        edge: EdgeId,
+        distance: f64,
+    ) -> Result<Vec<TriId>, BroadPhaseError> {
+        let keep = |t| !is_side(mesh, edge.0, t);
+        let near = beside(&self.triangles, self.edges.bounds(edge.0), checked(distance)?, keep);
+        Ok(near.into_iter().map(TriId).collect())
+    }
+
+    /// The edges that [`BroadPhase::edge_triangle_pairs`] has with one triangle.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn edges_near_triangle(
+        &self,
+        mesh: &RadialConnectivity,
+        triangle: TriId,
+        distance: f64,
+    ) -> Result<Vec<EdgeId>, BroadPhaseError> {
+        let keep = |e| !is_side(mesh, e, triangle.0);
+        let near = beside(&self.edges, self.triangles.bounds(triangle.0), checked(distance)?, keep);
+        Ok(near.into_iter().map(EdgeId).collect())
+    }
+}
+
+/// Elements whose boxes may have changed, whether they are in use or not.
+#[derive(Default)]
+struct Touched {
+    vertices: Vec<VertexId>,
+    edges: Vec<EdgeId>,
+    triangles: Vec<TriId>,
+}
+
+impl Touched {
+    fn star(&mut self, mesh: &RadialConnectivity, vertex: VertexId) {
+        self.vertices.push(vertex);
+        for h in mesh.star(vertex) {
+            self.edges.extend([mesh.edge(h), mesh.edge(h.previous())]);
+            self.triangles.push(h.triangle());
+        }
+    }
+
+    /// Each element once, ascending.
+    fn once(mut self) -> Self {
+        fn sort<T: Ord>(ids: &mut Vec<T>) {
+            ids.sort_unstable();
+            ids.dedup();
+        }
+        sort(&mut self.vertices);
+        sort(&mut self.edges);
+        sort(&mut self.triangles);
+        self
+    }
+}
+
+fn set(tree: &mut Tree, element: u32, in_use: bool, bounds: impl FnOnce() -> Box3) {
+    if in_use {
+        tree.set(element, bounds());
+    } else {
+        tree.remove(element);
+    }
+}
+
+fn beside(tree: &Tree, bounds: Option<&Box3>, distance: f64, keep: impl Fn(u32) -> bool) -> Vec<u32> {
+    bounds.map_or_else(Vec::new, |bounds| tree.near(bounds, distance, keep))
+}
+
+fn is_corner(mesh: &RadialConnectivity, vertex: u32, triangle: u32) -> bool {
+    mesh.corners(TriId(triangle)).contains(&VertexId(vertex))
+}
+
+fn have_common_end(mesh: &RadialConnectivity, a: u32, b: u32) -> bool {
+    let ends = mesh.ends(EdgeId(a));
+    mesh.ends(EdgeId(b)).iter().any(|end| ends.contains(end))
+}
+
+fn is_side(mesh: &RadialConnectivity, edge: u32, triangle: u32) -> bool {
+    let corners = mesh.corners(TriId(triangle));
+    mesh.ends(EdgeId(edge)).iter().all(|end| corners.contains(end))
+}
