@@ -3,5 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a panic is the report of a test")]
 #![allow(clippy::print_stdout, reason = "a test tells its figures")]
 
+mod broad_phase;
 mod collision;
 mod surface;

@@ -3,4 +3,4 @@
 mod attributes;
 mod construction;
 mod named;
-mod random;
+pub(crate) mod random;

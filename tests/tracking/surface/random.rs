@@ -8,8 +8,8 @@ use welter_meshing::surface::{EdgeId, TriId, VertexId};
 use welter_tracking::surface::{EventKind, HalfEdge, MovingSurface, Plan, RadialConnectivity, Refusal};
 
 /// A random operation: the plan or why there is none, and what the plain surface says would come out.
-pub(super) struct Trial {
-    pub(super) plan: Result<Plan, Refusal>,
+pub(crate) struct Trial {
+    pub(crate) plan: Result<Plan, Refusal>,
     pub(super) plain: PlainSurface,
 }
 
@@ -37,7 +37,7 @@ fn hole(mesh: &RadialConnectivity, edge: EdgeId) -> Option<([TriId; 2], [VertexI
 }
 
 /// An operation of a kind: 0 split, 1 flip, 2 collapse, 3 separation, 4 tube, 5 removal, 6 filling.
-pub(super) fn trial(surface: &MovingSurface, random: &mut Random, kind: u64) -> Option<Trial> {
+pub(crate) fn trial(surface: &MovingSurface, random: &mut Random, kind: u64) -> Option<Trial> {
     let mesh = surface.connectivity();
     let before = plain(mesh);
     let edge = pick(random, mesh.edges())?;

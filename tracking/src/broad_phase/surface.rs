@@ -35,7 +35,8 @@ use welter_meshing::surface::{EdgeId, TriId, VertexId};
 /// let edge = surface.connectivity().edges().next().expect("a sphere has edges");
 /// let plan = surface.plan_split(edge, 0.5)?;
 /// surface.apply(plan);
-/// broad_phase.follow(&surface, Motion::Rest, &surface.take_log())?;
+/// let log = surface.take_log();
+/// broad_phase.follow(&surface, Motion::Rest, &log)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]

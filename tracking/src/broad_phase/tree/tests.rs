@@ -1,3 +1,5 @@
+//! The invariants of the tree after any changes.
+
 use super::*;
 use std::collections::BTreeMap;
 
@@ -63,7 +65,7 @@ fn no_sequence_of_changes_breaks_the_tree() {
             // It grows, and shrinks to nothing.
             let limit = if step < 2000 { 400 } else { (2980 - step.min(2980)) as u64 / 3 };
             let element = (random(&mut state) % 400) as u32;
-            if u64::from(element) < limit && random(&mut state) % 4 > 0 {
+            if u64::from(element) < limit && random(&mut state) & 3 != 0 {
                 let kind = kinds[random(&mut state) as usize % kinds.len()];
                 let bounds = some_box(&mut state, kind, step);
                 tree.set(element, bounds);

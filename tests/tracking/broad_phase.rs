@@ -1,0 +1,6 @@
+//! The broad phase, against all pairs.
+
+mod changes;
+mod hostile;
+mod laws;
+mod twin;
