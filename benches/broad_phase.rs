@@ -7,8 +7,8 @@
 //! vertices move by up to a tenth of the edge length along each axis, and of one beside a triangle as large as all. Times are
 //! the best of three: milliseconds for everything at once; microseconds for one of ten thousand elements, in the order of
 //! their ids, as a sweep takes them, or shuffled, which shows the caches. As a baseline the static hierarchies of
-//! `welter_meshing` over the same boxes of vertices, edges and triangles are built and refitted in the same run. `e-t rest`
-//! and what follows `query t` are of the surface at rest, pairs and queries else of the motion. `update` is an edge split
+//! `welter_meshing` over the same boxes of vertices, edges and triangles are built, refitted and asked for triangles in the same run. `e-t rest`
+//! and what follows `s query` are of the surface at rest, pairs and queries else of the motion. `update` is an edge split
 //! that is followed, without the split itself; `move` a vertex that moved, with its star. The exponent is that of the time for everything;
 //! of single elements, that of the time for one times the number of triangles. The last columns tell how many pairs there were.
 
@@ -24,9 +24,9 @@ use welter_meshing::surface::{EdgeId, TriMesh, TriangleSoup, VertexId};
 use welter_tracking::broad_phase::{BroadPhase, Motion};
 use welter_tracking::surface::MovingSurface;
 
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 13] = [
     "build", "refresh", "static", "s refit", "v-t", "e-e", "e-t rest", "query v", "query e", "query t",
-    "update", "move",
+    "s query", "update", "move",
 ];
 /// From here on times are of one element.
 const SINGLE: usize = 7;
@@ -62,7 +62,7 @@ fn input(target: f64, with_a_large_triangle: bool) -> (TriMesh, f64) {
 }
 
 /// Times by column, and how many pairs there were of each kind.
-fn measure(mesh: &TriMesh, edge_length: f64, shuffled: bool) -> ([f64; 12], [usize; 3]) {
+fn measure(mesh: &TriMesh, edge_length: f64, shuffled: bool) -> ([f64; 13], [usize; 3]) {
     let surface = MovingSurface::new(mesh).expect("admissible");
     let connectivity = surface.connectivity();
     let moved = |(i, &p): (usize, &DVec3)| {
@@ -78,14 +78,13 @@ fn measure(mesh: &TriMesh, edge_length: f64, shuffled: bool) -> ([f64; 12], [usi
         connectivity.edges().map(|e| swept(&connectivity.ends(e))).collect(),
         connectivity.triangles().map(|t| swept(&connectivity.corners(t))).collect(),
     ];
-    let (mut times, mut counts) = ([0.0; 12], [0; 3]);
+    let (mut times, mut counts) = ([0.0; 13], [0; 3]);
     let mut rest;
     (times[0], rest) = best(3, || BroadPhase::new(&surface, Motion::Rest).expect("finite"));
     times[1] = best(3, || rest.refresh(&surface, motion).expect("finite")).0;
     let mut fixed;
     (times[2], fixed) = best(3, || boxes.each_ref().map(|boxes| BoxTree::new(boxes)));
     times[3] = best(3, || fixed.iter_mut().zip(&boxes).for_each(|(tree, boxes)| tree.refit(boxes))).0;
-    drop(fixed);
     (times[4], counts[0]) = best(3, || rest.vertex_triangle_pairs(connectivity, 0.0).expect("zero").len());
     (times[5], counts[1]) = best(3, || rest.edge_edge_pairs(connectivity, 0.0).expect("zero").len());
     let each = |seconds: f64| 1e3 * seconds / SINGLES as f64;
@@ -105,13 +104,19 @@ fn measure(mesh: &TriMesh, edge_length: f64, shuffled: bool) -> ([f64; 12], [usi
                 black_box(rest.triangles_near(&boxes[2][t as usize], 0.0).expect("zero"));
             });
         }),
+        best(3, || {
+            some(boxes[2].len(), shuffled).for_each(|t| {
+                black_box(fixed[2].meeting(&boxes[2], &boxes[2][t as usize]));
+            });
+        }),
     ];
     queries.iter().zip(SINGLE..).for_each(|(query, i)| times[i] = each(query.0));
+    drop(fixed);
     rest.refresh(&surface, Motion::Rest).expect("finite");
     (times[6], counts[2]) = best(3, || rest.edge_triangle_pairs(connectivity, 0.0).expect("zero").len());
     let updates: Vec<[f64; 2]> = (0..3).map(|_| changes(surface.clone(), rest.clone(), shuffled)).collect();
     for i in 0..2 {
-        times[10 + i] = each(updates.iter().map(|times| times[i]).fold(f64::INFINITY, f64::min));
+        times[11 + i] = each(updates.iter().map(|times| times[i]).fold(f64::INFINITY, f64::min));
     }
     (times.map(|seconds| 1e3 * seconds), counts)
 }
@@ -142,7 +147,7 @@ fn ladder(largest: usize) {
         let surface = if with_a_large_triangle { "sphere and a large triangle" } else { "sphere" };
         println!("{surface}, {}", if shuffled { "shuffled" } else { "in order" });
         println!("triangles {}", COLUMNS.map(|name| format!("{name:>9}")).concat());
-        let mut rows: Vec<(f64, [f64; 12])> = Vec::new();
+        let mut rows: Vec<(f64, [f64; 13])> = Vec::new();
         for target in [6_000.0_f64, 25_000.0, 100_000.0, 400_000.0] {
             let (mesh, edge_length) = input(target, with_a_large_triangle);
             let n = mesh.triangles().len();
@@ -154,7 +159,7 @@ fn ladder(largest: usize) {
             rows.push((n as f64, times));
         }
         if let [first, .., last] = &rows[..] {
-            let exponents: [f64; 12] = std::array::from_fn(|i| {
+            let exponents: [f64; 13] = std::array::from_fn(|i| {
                 let of_all = if i < SINGLE { 0.0 } else { 1.0 };
                 of_all + (last.1[i] / first.1[i]).ln() / (last.0 / first.0).ln()
             });

@@ -185,6 +185,24 @@ fn what_is_no_motion_and_no_distance_is_refused() {
 }
 
 #[test]
+fn a_refresh_without_the_changes_before_it_is_refused() {
+    let (_, mesh) = closed_surfaces().pop().unwrap();
+    let mut surface = MovingSurface::new(&mesh).unwrap();
+    let mut broad_phase = BroadPhase::new(&surface, Motion::Rest).unwrap();
+    let everything = Box3 { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
+    let before = broad_phase.edges_near(&everything, 0.0);
+    let edge = surface.connectivity().edges().next().unwrap();
+    let plan = surface.plan_split(edge, 0.5).unwrap();
+    surface.apply(plan);
+    let error = BroadPhaseError::NotFollowed { elements: "vertices" };
+    assert_eq!(broad_phase.refresh(&surface, Motion::Rest), Err(error));
+    assert_eq!(broad_phase.edges_near(&everything, 0.0), before);
+    broad_phase.follow(&surface, Motion::Rest, surface.log()).unwrap();
+    assert_eq!(broad_phase.refresh(&surface, Motion::Rest), Ok(()));
+    assert_eq!(Lists::of(&broad_phase, &surface, 0.0), Lists::twin(&surface, Motion::Rest, 0.0));
+}
+
+#[test]
 fn a_surface_without_triangles_has_no_pairs() {
     let surface = loose(Vec::new());
     let mut broad_phase = BroadPhase::new(&surface, Motion::Rest).unwrap();

@@ -24,6 +24,12 @@ pub enum BroadPhaseError {
         /// Where it would end.
         end: DVec3,
     },
+    /// The surface has other elements than those that were followed.
+    #[error("the surface has other {elements} than were followed")]
+    NotFollowed {
+        /// Which kind of element; the first.
+        elements: &'static str,
+    },
     /// A distance is not a finite number from 0 on.
     #[error("the distance is {distance}, must be finite and not below 0")]
     Distance {

@@ -32,7 +32,7 @@
 //! # Complexity
 //! For n elements: building O(n log n); refreshing O(n); a change O(log^2 n) amortised for each element touched, O(n log n) at
 //! worst; pairs O(n + k log k) in practice for k pairs whose boxes are near, O(n^2) at worst. 128 bytes an
-//! element, twice that during a refresh.
+//! element, twice that during a refresh after elements came or went.
 
 mod error;
 mod gap;

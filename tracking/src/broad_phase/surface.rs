@@ -14,6 +14,9 @@ use welter_meshing::surface::{EdgeId, TriId, VertexId};
 /// end, an edge and a triangle of which it is a side. An edge that shares one vertex with a triangle is a
 /// candidate, for the two may overlap in a plane.
 ///
+/// What takes the connectivity of the surface takes that of the state followed; with another one, lists are without meaning, and
+/// an id that it never gave out panics.
+///
 /// ```
 /// use welter_meshing::{shapes, surface::EmbeddedMesh};
 /// use welter_tracking::broad_phase::{BroadPhase, Motion};
@@ -73,17 +76,23 @@ impl BroadPhase {
     /// Gives all elements new boxes: their positions or the motion have changed. Linear; for elements whose
     /// neighbours have become others it is as [`BroadPhase::new`].
     ///
-    /// The elements must be those followed so far.
-    ///
     /// # Errors
-    /// As [`BroadPhase::new`]; nothing is changed then.
-    ///
-    /// # Panics
-    /// May panic if the surface has other elements.
+    /// As [`BroadPhase::new`], and [`BroadPhaseError::NotFollowed`] if elements came or went that were not followed;
+    /// nothing is changed then.
     pub fn refresh(&mut self, surface: &MovingSurface, motion: Motion<'_>) -> Result<(), BroadPhaseError> {
         let boxes = Boxes::new(surface, motion)?;
-        boxes.check(surface.connectivity().vertices())?;
+        let mesh = surface.connectivity();
+        boxes.check(mesh.vertices())?;
         let Self { vertices, edges, triangles } = self;
+        for (elements, followed) in [
+            ("vertices", vertices.holds(mesh.vertex_count(), |v| mesh.has_vertex(VertexId(v)))),
+            ("edges", edges.holds(mesh.edge_count(), |e| mesh.has_edge(EdgeId(e)))),
+            ("triangles", triangles.holds(mesh.triangle_count(), |t| mesh.has_triangle(TriId(t)))),
+        ] {
+            if !followed {
+                return Err(BroadPhaseError::NotFollowed { elements });
+            }
+        }
         let refresh_vertices = || vertices.refresh(|v| boxes.vertex(v));
         let refresh_edges = || edges.refresh(|e| boxes.edge(e));
         let refresh_triangles = || triangles.refresh(|t| boxes.triangle(t));

@@ -32,6 +32,7 @@ impl Tree {
         if leaf == NONE {
             return;
         }
+        self.ordered = false;
         self.leaf_of[element as usize] = NONE;
         self.free.push(leaf);
         let parent = self.nodes[leaf as usize].parent;
@@ -51,6 +52,7 @@ impl Tree {
         if self.leaf_of.len() <= element as usize {
             self.leaf_of.resize(element as usize + 1, NONE);
         }
+        self.ordered = false;
         let leaf = self.place(Node::leaf(element, bounds, NONE));
         self.leaf_of[element as usize] = leaf;
         if self.root == NONE {
@@ -140,7 +142,7 @@ impl Tree {
         let mut keys: Vec<Key> =
             elements.iter().map(|&(e, place)| Key::of(e, &self.nodes[place as usize].bounds)).collect();
         let (nodes, leaf_of) = (&self.nodes, &self.leaf_of);
-        let built = build(&mut keys, &|e: u32| nodes[leaf_of[e as usize] as usize].bounds);
+        let (built, _) = build(&mut keys, &|e: u32| nodes[leaf_of[e as usize] as usize].bounds);
         for (mut node, &place) in built.into_iter().zip(&places) {
             node.parent = if place == top { parent } else { places[node.parent as usize] };
             if node.is_leaf() {

@@ -74,7 +74,9 @@ pub(super) struct Tree {
     /// By element, [`NONE`] for those that are not in the tree.
     leaf_of: Vec<u32>,
     free: Vec<u32>,
-    /// [`Tree::size`] when it was built.
+    /// Whether each node is followed by all of its first child's subtree, then all of the second's.
+    ordered: bool,
+    /// [`Extent::size`] when it was built.
     built_size: f64,
 }
 
@@ -83,16 +85,26 @@ impl Tree {
     pub(super) fn new(elements: impl Iterator<Item = u32>, box_of: impl Fn(u32) -> Box3 + Sync) -> Self {
         let elements: Vec<u32> = elements.collect();
         let mut keys: Vec<Key> = elements.par_iter().map(|&e| Key::of(e, &box_of(e))).collect();
-        let mut tree =
-            Self { nodes: Vec::new(), root: NONE, leaf_of: Vec::new(), free: Vec::new(), built_size: 0.0 };
+        let mut tree = Self {
+            nodes: Vec::new(),
+            root: NONE,
+            leaf_of: Vec::new(),
+            free: Vec::new(),
+            ordered: true,
+            built_size: 0.0,
+        };
         if let Some(last) = elements.last() {
             tree.leaf_of = vec![NONE; *last as usize + 1];
-            tree.nodes = build(&mut keys, &box_of);
-            tree.root = 0;
-            tree.find_leaves();
-            tree.built_size = tree.size();
+            tree.build_all(&mut keys, &box_of);
         }
         tree
+    }
+
+    fn build_all(&mut self, keys: &mut [Key], box_of: &(impl Fn(u32) -> Box3 + Sync)) {
+        (self.nodes, self.built_size) = build(keys, box_of);
+        (self.root, self.ordered) = (0, true);
+        self.free.clear();
+        self.find_leaves();
     }
 
     pub(super) fn len(&self) -> usize {
@@ -105,36 +117,32 @@ impl Tree {
         self.nodes.get(leaf as usize).map(|node| &node.bounds)
     }
 
+    /// Whether exactly the elements in use, `count` of them, are in the tree.
+    pub(super) fn holds(&self, count: usize, in_use: impl Fn(u32) -> bool + Sync) -> bool {
+        let known = |(element, &leaf): (usize, &u32)| leaf == NONE || in_use(element as u32);
+        self.len() == count && self.leaf_of.par_iter().enumerate().all(known)
+    }
+
     /// Gives all elements new boxes. Linear, unless the tree has become so much worse that it is built anew.
     pub(super) fn refresh(&mut self, box_of: impl Fn(u32) -> Box3 + Sync) {
         if self.root == NONE {
             return;
         }
-        let blank = Node::leaf(NONE, Box3::EMPTY, NONE);
-        let mut nodes = vec![blank; 2 * self.len() - 1];
-        refit(&self.nodes, self.root, &mut nodes, 0, NONE, &box_of);
-        (self.nodes, self.root) = (nodes, 0);
-        self.free.clear();
-        self.find_leaves();
-        if self.size() > TOLERATED_GROWTH * self.built_size {
+        let size = if self.ordered {
+            refit(&mut self.nodes, &box_of).size
+        } else {
+            let mut nodes = blank(self.len());
+            let size = refit_in_order(&self.nodes, self.root, &mut nodes, [0, NONE], &box_of).size;
+            (self.nodes, self.root, self.ordered) = (nodes, 0, true);
+            self.free.clear();
+            self.find_leaves();
+            size
+        };
+        if size > TOLERATED_GROWTH * self.built_size {
             let leaves = self.nodes.par_iter().filter(|node| node.is_leaf());
             let mut keys: Vec<Key> = leaves.map(|leaf| Key::of(leaf.children[0], &leaf.bounds)).collect();
-            self.nodes = build(&mut keys, &box_of);
-            self.find_leaves();
-            self.built_size = self.size();
+            self.build_all(&mut keys, &box_of);
         }
-    }
-
-    /// The sum of the nodes' sizes as parts of the root's: about how many of them a query of no size visits. For a
-    /// tree whose nodes are all in use.
-    fn size(&self) -> f64 {
-        let whole = half_girth(&self.nodes[self.root as usize].bounds);
-        if whole == 0.0 {
-            return 0.0;
-        }
-        let part = |nodes: &[Node]| nodes.iter().map(|node| half_girth(&node.bounds) / whole).sum::<f64>();
-        // Parts of fixed size, summed in order, for the same bits by any number of threads.
-        self.nodes.par_chunks(2 * GRAIN).map(part).collect::<Vec<f64>>().iter().sum()
     }
 
     fn find_leaves(&mut self) {
@@ -151,26 +159,56 @@ fn half_girth(bounds: &Box3) -> f64 {
     (0.125 * bounds.max - 0.125 * bounds.min).element_sum()
 }
 
-/// The nodes of a tree, the root first.
-fn build(keys: &mut [Key], box_of: &(impl Fn(u32) -> Box3 + Sync)) -> Vec<Node> {
-    assert!(keys.len() < 1 << 31, "nodes are numbered by 32 bits");
-    let mut nodes = vec![Node::leaf(NONE, Box3::EMPTY, NONE); 2 * keys.len() - 1];
-    build_below(keys, &mut nodes, 0, NONE, box_of);
-    nodes
+/// What is told of a subtree when its boxes are made.
+#[derive(Clone, Copy)]
+struct Extent {
+    bounds: Box3,
+    /// The sum of its nodes' sizes as parts of its root's: about how many of them a query of no size visits.
+    size: f64,
 }
 
-/// Fills `nodes`, whose first has the number `at`.
+impl Extent {
+    fn leaf(bounds: Box3) -> Self {
+        Self { bounds, size: 1.0 }
+    }
+
+    fn of(a: &Self, b: &Self) -> Self {
+        let bounds = a.bounds.union(&b.bounds);
+        let whole = half_girth(&bounds);
+        let part =
+            |child: &Self| if whole > 0.0 { child.size * (half_girth(&child.bounds) / whole) } else { 0.0 };
+        Self { bounds, size: 1.0 + (part(a) + part(b)) }
+    }
+}
+
+fn blank(leaves: usize) -> Vec<Node> {
+    vec![Node::leaf(NONE, Box3::EMPTY, NONE); 2 * leaves - 1]
+}
+
+/// Both, on two threads if there is enough to do.
+fn both<T: Send>(leaves: usize, a: impl FnOnce() -> T + Send, b: impl FnOnce() -> T + Send) -> (T, T) {
+    if leaves < GRAIN { (a(), b()) } else { rayon::join(a, b) }
+}
+
+/// The nodes of a tree in order, and its size.
+fn build(keys: &mut [Key], box_of: &(impl Fn(u32) -> Box3 + Sync)) -> (Vec<Node>, f64) {
+    assert!(keys.len() < 1 << 31, "nodes are numbered by 32 bits");
+    let mut nodes = blank(keys.len());
+    let size = build_below(keys, &mut nodes, [0, NONE], box_of).size;
+    (nodes, size)
+}
+
+/// Fills `nodes`, whose first has the number and the parent given.
 fn build_below(
     keys: &mut [Key],
     nodes: &mut [Node],
-    at: u32,
-    parent: u32,
+    [at, parent]: [u32; 2],
     box_of: &(impl Fn(u32) -> Box3 + Sync),
-) -> Box3 {
+) -> Extent {
     if let [key] = keys {
         let bounds = box_of(key.element);
         nodes[0] = Node::leaf(key.element, bounds, parent);
-        return bounds;
+        return Extent::leaf(bounds);
     }
     let leaves = keys.len();
     let centres = Box3::of(keys.iter().map(|key| key.centre));
@@ -183,42 +221,55 @@ fn build_below(
     let (this, below) = nodes.split_at_mut(1);
     let (left, right) = below.split_at_mut(2 * middle - 1);
     let children = [at + 1, at + 2 * middle as u32];
-    let mut build_low = || build_below(low, left, children[0], at, box_of);
-    let mut build_high = || build_below(high, right, children[1], at, box_of);
-    let boxes = if leaves < GRAIN { (build_low(), build_high()) } else { rayon::join(build_low, build_high) };
-    let bounds = boxes.0.union(&boxes.1);
-    this[0] = Node { bounds, children, parent, leaves: leaves as u32 };
-    bounds
+    let (a, b) = both(
+        leaves,
+        || build_below(low, left, [children[0], at], box_of),
+        || build_below(high, right, [children[1], at], box_of),
+    );
+    let extent = Extent::of(&a, &b);
+    this[0] = Node { bounds: extent.bounds, children, parent, leaves: leaves as u32 };
+    extent
 }
 
-/// Copies the subtree at `from` of `old` into `nodes`, whose first has the number `at`, with new boxes.
-fn refit(
+/// Gives the nodes of an ordered subtree new boxes.
+fn refit(nodes: &mut [Node], box_of: &(impl Fn(u32) -> Box3 + Sync)) -> Extent {
+    let (this, below) = nodes.split_at_mut(1);
+    if this[0].is_leaf() {
+        this[0].bounds = box_of(this[0].children[0]);
+        return Extent::leaf(this[0].bounds);
+    }
+    let (left, right) = below.split_at_mut(2 * below[0].leaves as usize - 1);
+    let (a, b) = both(this[0].leaves as usize, || refit(left, box_of), || refit(right, box_of));
+    let extent = Extent::of(&a, &b);
+    this[0].bounds = extent.bounds;
+    extent
+}
+
+/// Copies the subtree at `from` of `old` in order into `nodes`, whose first has the number and the parent given, with new boxes.
+fn refit_in_order(
     old: &[Node],
     from: u32,
     nodes: &mut [Node],
-    at: u32,
-    parent: u32,
+    [at, parent]: [u32; 2],
     box_of: &(impl Fn(u32) -> Box3 + Sync),
-) -> Box3 {
+) -> Extent {
     let Node { children: [first, second], leaves, .. } = old[from as usize];
     if leaves == 1 {
         let bounds = box_of(first);
         nodes[0] = Node::leaf(first, bounds, parent);
-        return bounds;
+        return Extent::leaf(bounds);
     }
     let (this, below) = nodes.split_at_mut(1);
     let (left, right) = below.split_at_mut(2 * old[first as usize].leaves as usize - 1);
     let children = [at + 1, at + 1 + left.len() as u32];
-    let mut refit_left = || refit(old, first, left, children[0], at, box_of);
-    let mut refit_right = || refit(old, second, right, children[1], at, box_of);
-    let boxes = if (leaves as usize) < GRAIN {
-        (refit_left(), refit_right())
-    } else {
-        rayon::join(refit_left, refit_right)
-    };
-    let bounds = boxes.0.union(&boxes.1);
-    this[0] = Node { bounds, children, parent, leaves };
-    bounds
+    let (a, b) = both(
+        leaves as usize,
+        || refit_in_order(old, first, left, [children[0], at], box_of),
+        || refit_in_order(old, second, right, [children[1], at], box_of),
+    );
+    let extent = Extent::of(&a, &b);
+    this[0] = Node { bounds: extent.bounds, children, parent, leaves };
+    extent
 }
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ fn check(tree: &Tree, expected: &BTreeMap<u32, Box3>) {
     assert_eq!(tree.len(), expected.len());
     let in_use = if tree.root == NONE { 0 } else { 2 * tree.len() - 1 };
     assert_eq!(tree.nodes.len() - tree.free.len(), in_use);
+    assert!(!tree.ordered || tree.free.is_empty());
     let mut stack: Vec<(u32, u32, usize)> =
         Some(tree.root).filter(|&r| r != NONE).map(|r| (r, NONE, 0)).into_iter().collect();
     let mut found = BTreeMap::new();
@@ -33,6 +34,7 @@ fn check(tree: &Tree, expected: &BTreeMap<u32, Box3>) {
         }
         let children = node.children.map(|child| tree.nodes[child as usize]);
         assert_eq!(node.leaves, children[0].leaves + children[1].leaves);
+        assert!(!tree.ordered || node.children == [at + 1, at + 2 * children[0].leaves]);
         assert_eq!(node.bounds, children[0].bounds.union(&children[1].bounds));
         assert!(children.iter().all(|child| 4 * child.leaves <= 3 * node.leaves));
         stack.extend(node.children.map(|child| (child, at, depth + 1)));
@@ -114,12 +116,18 @@ fn a_tree_is_built_anew_only_when_its_boxes_have_grown() {
     };
     let mut tree = Tree::new(0..5000, at(1.0));
     let shape = |tree: &Tree| tree.nodes.iter().map(|node| node.children).collect::<Vec<_>>();
-    let (before, size) = (shape(&tree), tree.size());
+    let size = |tree: &Tree| {
+        let bounds = |e: u32| *tree.bounds(e).expect("an element of the tree");
+        refit(&mut tree.nodes.clone(), &bounds).size
+    };
+    let (before, small) = (shape(&tree), size(&tree));
+    assert_eq!(small, tree.built_size);
     tree.refresh(at(8.0));
-    assert_eq!((shape(&tree), tree.size()), (before.clone(), size), "nothing but the scale has changed");
+    assert_eq!((shape(&tree), size(&tree)), (before.clone(), small), "nothing but the scale has changed");
     let shuffled = |e: u32| Box3::of([points[(e as usize * 2111) % 5000]]);
     tree.refresh(shuffled);
     assert_ne!(shape(&tree), before);
     check(&tree, &(0..5000).map(|e| (e, shuffled(e))).collect());
-    assert!(tree.size() < 1.1 * size);
+    assert_eq!(size(&tree), tree.built_size);
+    assert!(size(&tree) < 1.1 * small);
 }
