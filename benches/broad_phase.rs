@@ -4,13 +4,14 @@
 //! cargo bench -p welter-benches --bench broad_phase [-- LARGEST [THREADS]]
 //! ```
 //! LARGEST bounds the triangles of the ladder (default 500000), THREADS the pool (default: all). Of a sphere whose
-//! vertices move by up to a tenth of the edge length along each axis, and of one beside a triangle as large as all. Times are
-//! the best of three: milliseconds for everything at once; microseconds for one of ten thousand elements, in the order of
-//! their ids, as a sweep takes them, or shuffled, which shows the caches. As a baseline the static hierarchies of
-//! `welter_meshing` over the same boxes of vertices, edges and triangles are built, refitted and asked for triangles in the same run. `e-t rest`
-//! and what follows `s query` are of the surface at rest, pairs and queries else of the motion. `update` is an edge split
-//! that is followed, without the split itself; `move` a vertex that moved, with its star. The exponent is that of the time for everything;
-//! of single elements, that of the time for one times the number of triangles. The last columns tell how many pairs there were.
+//! vertices move by up to a tenth of the edge length along each axis, and of one beside a triangle as large as all.
+//! Times are the best of three: milliseconds for everything at once; microseconds for one of ten thousand elements,
+//! in the order of their ids, as a sweep takes them, or shuffled, which shows the caches. As a baseline the static
+//! hierarchies of `welter_meshing` over the same boxes of vertices, edges and triangles are built, refitted and asked for
+//! triangles in the same run (`static`, `s refit`, `s query`). Pairs and queries are of the motion, but `e-t rest`, `update`
+//! and `move` of the surface at rest. `update` is an edge split that is followed, without the split itself; `move` a vertex
+//! that moved, with its star. The exponent is that of the time for everything; of single elements, that of the time for
+//! one times the number of triangles. The last columns tell how many pairs there were.
 
 #![allow(clippy::print_stdout)] // a report is what a benchmark is for
 

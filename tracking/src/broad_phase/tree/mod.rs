@@ -28,7 +28,7 @@ const NONE: u32 = u32::MAX;
 const GRAIN: usize = 2048;
 
 /// A refreshed tree whose boxes have grown by this factor, relative to the scene, is built anew: queries visit
-/// about that many times as many nodes as they did, while building costs about ten refreshes.
+/// about that many times as many nodes as they did, while building costs about five refreshes.
 const TOLERATED_GROWTH: f64 = 2.0;
 
 /// A node fills a line of the cache.
