@@ -9,7 +9,7 @@
 //! # What it promises
 //! * Nothing is missed: a pair is left out only if its boxes, the exact hulls of the coordinates, are farther apart
 //!   than the distance along an axis, without any tolerance, whatever the finite coordinates. Rounding adds pairs whose
-//!   distance is above the one given by half a unit in the last place at most.
+//!   gap is above the distance by half a unit in the last place at most.
 //! * Lists are sorted by ids. They depend on boxes and distance alone, not on the changes that led to them, nor on
 //!   the number of threads. Everything multiplied by a power of two gives the same lists.
 //! * Ends that are not finite, and distances that are not, are refused; a box asked about may be infinite.
@@ -21,8 +21,8 @@
 //!   [`BroadPhase::refresh`].
 //!
 //! # Method
-//! A binary tree of boxes for each kind of element (`tree`), split at medians, refitted when everything moves and balanced by
-//! rebuilding parts when elements come and go. All pairs come from simultaneous descents. Reasons:
+//! A binary tree of boxes for each kind of element (`tree`), split at medians, refitted when everything moves and
+//! balanced by rebuilding parts when elements come and go. All pairs come from simultaneous descents. Reasons:
 //! * Grids, as in \[Brochu12\], need a cell size. A triangle as large as all lies in all cells or in a level of
 //!   its own that every query visits, and one far vertex leaves the rest in one cell; so do Morton codes, whose bits are
 //!   shared out over the scene. Medians compare coordinates with each other only.
@@ -30,8 +30,8 @@
 //!   scene grows, and takes no elements in or out. Here boxes are `f64`: 64 bytes a node, no frame.
 //!
 //! # Complexity
-//! For n elements: building O(n log n); refreshing O(n); a change O(log^2 n) amortised for each element touched, O(n log n) at
-//! worst; pairs O(n + k log k) in practice for k pairs whose boxes are near, O(n^2) at worst. 128 bytes an
+//! For n elements: building O(n log n); refreshing O(n); a change O(log^2 n) amortised for each element touched,
+//! O(n log n) at worst; pairs O(n + k log k) in practice for k pairs whose boxes are near, O(n^2) at worst. 132 bytes an
 //! element, twice that during a refresh after elements came or went.
 
 mod error;

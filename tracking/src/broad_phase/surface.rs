@@ -10,12 +10,12 @@ use welter_meshing::surface::{EdgeId, TriId, VertexId};
 
 /// Boxes of all elements of a surface, to find those near each other.
 ///
-/// Elements that meet by their ids are no candidates: a vertex and a triangle of which it is a corner, two edges with a common
-/// end, an edge and a triangle of which it is a side. An edge that shares one vertex with a triangle is a
+/// Elements that meet by their ids are no candidates: a vertex and a triangle of which it is a corner, two edges with a
+/// common end, an edge and a triangle of which it is a side. An edge that shares one vertex with a triangle is a
 /// candidate, for the two may overlap in a plane.
 ///
-/// What takes the connectivity of the surface takes that of the state followed; with another one, lists are without meaning, and
-/// an id that it never gave out panics.
+/// What takes the connectivity of the surface takes that of the state followed; with another one, lists are without
+/// meaning, and an id that it never gave out panics.
 ///
 /// ```
 /// use welter_meshing::{shapes, spatial::Box3};
@@ -245,7 +245,8 @@ impl BroadPhase {
         Ok(near.into_iter().map(TriId).collect())
     }
 
-    /// The triangles that [`BroadPhase::vertex_triangle_pairs`] has with one vertex; none for one not in use, here and below.
+    /// The triangles that [`BroadPhase::vertex_triangle_pairs`] has with one vertex; none for a vertex not in use.
+    /// The same holds for the elements below.
     ///
     /// # Errors
     /// [`BroadPhaseError::Distance`].

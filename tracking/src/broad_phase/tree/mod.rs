@@ -245,7 +245,8 @@ fn refit(nodes: &mut [Node], box_of: &(impl Fn(u32) -> Box3 + Sync)) -> Extent {
     extent
 }
 
-/// Copies the subtree at `from` of `old` in order into `nodes`, whose first has the number and the parent given, with new boxes.
+/// Copies the subtree at `from` of `old` in order into `nodes`, whose first has the number and the parent given,
+/// with new boxes.
 fn refit_in_order(
     old: &[Node],
     from: u32,
