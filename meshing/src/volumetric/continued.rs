@@ -187,4 +187,51 @@ impl Continued {
             }
         }
     }
+
+    /// Forgets hidden surfaces that no step leads through any more, and numbers the others anew.
+    pub(super) fn keep_hidden_of(&mut self, steps: &mut [CellStep]) {
+        let all = std::mem::take(&mut self.hidden);
+        for step in steps {
+            if let Step::Hidden(number) = &mut step.step {
+                self.hidden.push(all[*number as usize]);
+                *number = self.hidden.len() as u32 - 1;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hidden_surfaces_on_ways_that_do_not_meet_are_left_out() {
+        // Sides of two hexahedra: 3 is beyond both ways from 0; 4 and 5 have a hidden surface between and nothing else.
+        let sides = |part: u32| -> Option<&'static [i16]> {
+            const SIDES: [[i16; 3]; 6] = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1]];
+            Some(&SIDES[part as usize])
+        };
+        let crossing = |id, from, to, hexahedron| CellStep {
+            step: Step::Crossing(id),
+            parts: [from, to],
+            hexahedron: Some(hexahedron),
+        };
+        let seen = vec![crossing(0, 0, 1, 10), crossing(1, 0, 2, 11), crossing(2, 1, 3, 11)];
+        let mut cell = Continued::default();
+        let mut steps = seen.clone();
+        cell.add_hidden(&mut steps, &[0, 1, 2, 3, 4, 5], 10, sides);
+        let hidden: Vec<[u32; 2]> = cell.hidden.iter().map(|hidden| hidden.parts).collect();
+        assert_eq!(hidden, [[0, 4], [1, 5], [2, 3], [4, 5]]);
+        // Without 0 to 4 and 1 to 5 the last is on no way that meets another.
+        steps.retain(|step| !matches!(step.step, Step::Hidden(0 | 1)));
+        let mut steps = meeting(steps, 6);
+        cell.keep_hidden_of(&mut steps);
+        assert_eq!(cell.hidden.iter().map(|hidden| hidden.parts).collect::<Vec<_>>(), [[2, 3]]);
+        cell.follow(&steps, Some(10), 6, [(1, Copy::Behind(0))]);
+        // The sheet of 10 leads into 3 through 11, and its own surface hidden between 2 and 3 is a patch of that class.
+        assert_eq!(cell.asked, [3]);
+        assert_eq!(cell.hidden[0].class, Copy::Asked(0));
+        let way = Continues { step: Step::Crossing(2), outer: Copy::Behind(0), inner: Copy::Asked(0) };
+        assert_eq!(cell.found, [way]);
+    }
 }

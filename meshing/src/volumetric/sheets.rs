@@ -252,10 +252,11 @@ impl Facts {
             let count = extension.len();
             cell.add_hidden(&mut steps, &deep, extension.start, |part| frame.sides(part, count));
         }
-        let steps = continued::meeting(steps, frame.places());
+        let mut steps = continued::meeting(steps, frame.places());
         if steps.is_empty() {
             return;
         }
+        cell.keep_hidden_of(&mut steps);
         let list = frame.crossings();
         for hexahedron in distinct(list.iter().map(|crossing| crossing.hexahedron)) {
             let own = list.iter().filter(|crossing| crossing.hexahedron == hexahedron);
