@@ -197,9 +197,9 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
     /// The exact part: see the head.
     fn keeps_embedded(&self, change: &Change<'_>) -> bool {
         let &Change { apex, disc, before, after } = change;
-        let positions = &self.positions;
+        let at = |v| self.at(v);
         for (i, &s) in after.iter().enumerate() {
-            if after[..i].iter().any(|&t| meet_in_more(positions, s, t)) {
+            if after[..i].iter().any(|&t| meet_in_more(at, s, t)) {
                 return false;
             }
         }
@@ -221,8 +221,7 @@ impl<'a, F: ScalarField> Workpiece<'a, F> {
                 return true;
             }
             let corners = self.mesh.corners(t);
-            let meets =
-                |(b, new): (&Box3, &[VertexId; 3])| own.meets(b) && meet_in_more(positions, corners, *new);
+            let meets = |(b, new): (&Box3, &[VertexId; 3])| own.meets(b) && meet_in_more(at, corners, *new);
             let enclosed = || {
                 corners.iter().all(|&v| at_corner(v))
                     && lies_between(before, tip, corners.map(|v| self.at(v)))
@@ -249,7 +248,7 @@ fn lies_between(disc: &[[DVec3; 3]], apex: DVec3, corners: [DVec3; 3]) -> bool {
             let points = [a, b, c, apex, p, q];
             let name =
                 |point: DVec3| VertexId::from_index(points.iter().position(|&x| x == point).unwrap_or(0));
-            meet_in_more(&points, corners.map(name), [apex, p, q].map(name))
+            meet_in_more(|v| points[v.index()], corners.map(name), [apex, p, q].map(name))
         })
 }
 

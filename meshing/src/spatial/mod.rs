@@ -30,5 +30,5 @@ pub(crate) use chord::chord;
 pub use closest::ClosestPoint;
 pub use self_intersection::{Sharing, self_intersections};
 pub use tree::BoxTree;
-pub(crate) use triangle_pair::meet_in_more;
+pub use triangle_pair::meet_in_more;
 pub use winding::{Winding, WindingNumbers, winding_number};

@@ -102,7 +102,7 @@ impl Bvh<'_> {
             "intersecting triangle pairs",
             |i, j, _, found: &mut Vec<[TriId; 2]>| {
                 let (i, j) = (i.min(j), i.max(j));
-                if meet_in_more(positions, corners[i as usize], corners[j as usize]) {
+                if meet_in_more(|v| positions[v.index()], corners[i as usize], corners[j as usize]) {
                     found.push([TriId(i), TriId(j)]);
                 }
             },

@@ -31,14 +31,26 @@ use welter_predicates::{Sign, orient2d, orient3d};
 use super::Box3;
 use crate::surface::VertexId;
 
-/// Whether triangles `s` and `t`, corners of `positions`, meet in more than the corners of equal name.
+/// Whether triangles `s` and `t` meet in more than the corners of equal name; `at` tells where a vertex is.
+///
+/// Exact for every finite position. Triangles with three common corners always meet in more. A degenerate triangle is
+/// the closed segment or point that its corners span.
+///
+/// ```
+/// use welter_meshing::{DVec3, spatial::meet_in_more, surface::VertexId};
+/// let positions = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+/// let at = |v: VertexId| positions[v.index()];
+/// let [a, b, c, d] = [0, 1, 2, 3].map(VertexId);
+/// assert!(!meet_in_more(at, [a, b, c], [b, a, d])); // two faces of a tetrahedron
+/// assert!(meet_in_more(at, [a, b, c], [a, c, b]));
+/// ```
 #[inline]
-pub(crate) fn meet_in_more(positions: &[DVec3], s: [VertexId; 3], t: [VertexId; 3]) -> bool {
-    let at = |v: VertexId| positions[v.index()];
+pub fn meet_in_more(at: impl Fn(VertexId) -> DVec3, s: [VertexId; 3], t: [VertexId; 3]) -> bool {
+    let at = &at;
     let common = |k: usize| t.iter().position(|&w| w == s[k]);
     match [common(0), common(1), common(2)] {
         [None, None, None] => meet(s.map(at), t.map(at)),
-        _ if collapsed(s) || collapsed(t) => meet_in_more_collapsed(positions, s, t),
+        _ if collapsed(s) || collapsed(t) => meet_in_more_collapsed(at, s, t),
         [Some(j), None, None] => meet_beyond_vertex(from(s.map(at), 0), from(t.map(at), j)),
         [None, Some(j), None] => meet_beyond_vertex(from(s.map(at), 1), from(t.map(at), j)),
         [None, None, Some(j)] => meet_beyond_vertex(from(s.map(at), 2), from(t.map(at), j)),
@@ -56,7 +68,7 @@ fn collapsed([a, b, c]: [VertexId; 3]) -> bool {
 }
 
 /// [`meet_in_more`] where one triangle at least is collapsed and they share a corner.
-fn meet_in_more_collapsed(positions: &[DVec3], s: [VertexId; 3], t: [VertexId; 3]) -> bool {
+fn meet_in_more_collapsed(at: &impl Fn(VertexId) -> DVec3, s: [VertexId; 3], t: [VertexId; 3]) -> bool {
     let within = |s: [VertexId; 3], t: [VertexId; 3]| s.iter().all(|v| t.contains(v));
     if (collapsed(s) && within(s, t)) || (collapsed(t) && within(t, s)) {
         return false; // One is the vertex or edge that they share.
@@ -64,7 +76,6 @@ fn meet_in_more_collapsed(positions: &[DVec3], s: [VertexId; 3], t: [VertexId; 3
     // The collapsed one is a segment of which only one end is shared.
     let shared = |s: [VertexId; 3], t: [VertexId; 3]| s.iter().position(|v| t.contains(v));
     let (Some(i), Some(j)) = (shared(s, t), shared(t, s)) else { return false };
-    let at = |v: VertexId| positions[v.index()];
     meet_beyond_vertex(from(s.map(at), i), from(t.map(at), j))
 }
 
