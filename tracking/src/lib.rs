@@ -11,6 +11,8 @@
 //! [`broad_phase`]: which elements of such a surface may come near each other, at rest or along a step. It promises to miss
 //! none, without a tolerance, and to follow changes without being built anew.
 //!
+//! [`quadric`]: whether the surface is smooth, a ridge or a corner at a vertex. It promises the same bits at every scale.
+//!
 //! [`queries`]: the reader of continuous collision queries with known answers.
 //!
 //! # What it will promise
@@ -24,5 +26,6 @@
 
 pub mod broad_phase;
 pub mod collision;
+pub mod quadric;
 pub mod queries;
 pub mod surface;
