@@ -26,6 +26,7 @@
 
 pub mod broad_phase;
 pub mod collision;
+pub mod improvement;
 pub mod quadric;
 pub mod queries;
 pub mod surface;

@@ -3,7 +3,7 @@
 use super::motion::Boxes;
 use super::tree::{Tree, pairs_between, self_pairs};
 use super::{BroadPhaseError, Motion};
-use crate::surface::{EventKind, EventLog, MovingSurface, RadialConnectivity};
+use crate::surface::{EventKind, EventLog, MovingSurface, RadialConnectivity, Renumbering};
 use rayon::prelude::*;
 use welter_meshing::spatial::Box3;
 use welter_meshing::surface::{EdgeId, TriId, VertexId};
@@ -124,8 +124,12 @@ impl BroadPhase {
             touched.vertices.extend(event.vertices.iter().map(|change| change.vertex));
             touched.edges.extend(event.edges.iter().map(|change| change.edge));
             touched.triangles.extend(event.triangles.iter().map(|change| change.triangle));
-            if let EventKind::Collapse { kept, .. } = event.kind {
-                touched.star(surface.connectivity(), kept);
+            match event.kind {
+                EventKind::Collapse { kept, .. } => touched.star(surface.connectivity(), kept),
+                EventKind::Cut { ring, .. } => {
+                    ring.iter().for_each(|&v| touched.star(surface.connectivity(), v));
+                }
+                _ => {}
             }
         }
         self.update(surface, motion, touched)
@@ -147,6 +151,45 @@ impl BroadPhase {
         let mut touched = Touched::default();
         vertices.iter().for_each(|&v| touched.star(surface.connectivity(), v));
         self.update(surface, motion, touched)
+    }
+
+    /// Takes in that a surface was compacted, all other changes of which were followed. Linear; the boxes are as they
+    /// were.
+    pub fn renumber(&mut self, renumbering: &Renumbering) {
+        fn renamed(olds: impl ExactSizeIterator<Item = u32> + Clone) -> (Vec<u32>, usize) {
+            let count = olds.len();
+            let mut new = vec![u32::MAX; olds.clone().max().map_or(0, |most| most as usize + 1)];
+            for (name, old) in (0..).zip(olds) {
+                new[old as usize] = name;
+            }
+            (new, count)
+        }
+        let Renumbering { vertices, edges, triangles } = renumbering;
+        let (new, count) = renamed(vertices.iter().map(|v| v.0));
+        self.vertices.rename(&new, count);
+        let (new, count) = renamed(edges.iter().map(|e| e.0));
+        self.edges.rename(&new, count);
+        let (new, count) = renamed(triangles.iter().map(|t| t.0));
+        self.triangles.rename(&new, count);
+    }
+
+    /// Takes in new boxes of some triangles at rest, in use or not, and leaves vertices and edges as they were: what
+    /// suffices while triangles alone are asked for. [`BroadPhase::follow`] with the whole log makes up for it.
+    pub(crate) fn set_triangles(&mut self, surface: &MovingSurface, triangles: impl Iterator<Item = TriId>) {
+        let mesh = surface.connectivity();
+        for t in triangles {
+            let bounds = || Box3::of(mesh.corners(t).map(|v| surface.position(v)));
+            set(&mut self.triangles, t.0, mesh.has_triangle(t), bounds);
+        }
+    }
+
+    /// Whether a condition holds for all triangles whose boxes meet a box; asked in no particular order.
+    pub(crate) fn all_triangles_near(
+        &self,
+        bounds: &Box3,
+        mut holds: impl FnMut(TriId, &Box3) -> bool,
+    ) -> bool {
+        self.triangles.all_near(bounds, 0.0, |t, own| holds(TriId(t), own))
     }
 
     fn update(

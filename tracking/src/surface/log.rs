@@ -42,6 +42,13 @@ pub enum EventKind {
         /// The vertex, which the first fan keeps; the others got the new vertices.
         vertex: VertexId,
     },
+    /// A surface was cut along three edges, and closed on both sides.
+    Cut {
+        /// The vertices of the ring, which one side keeps.
+        ring: [VertexId; 3],
+        /// Those that the other side got in their place.
+        copies: [VertexId; 3],
+    },
     /// All elements were numbered anew, without gaps.
     Compact,
 }
@@ -124,6 +131,16 @@ impl EventLog {
             edges: &self.edges[e..edges],
             triangles: &self.triangles[t..triangles],
         })
+    }
+
+    /// Adds the events of another log at the end.
+    pub fn append(&mut self, other: &Self) {
+        let [v, e, t] = [self.vertices.len(), self.edges.len(), self.triangles.len()];
+        let moved = |&(kind, [i, j, k]): &(EventKind, [usize; 3])| (kind, [i + v, j + e, k + t]);
+        self.kinds.extend(other.kinds.iter().map(moved));
+        self.vertices.extend(&other.vertices);
+        self.edges.extend(&other.edges);
+        self.triangles.extend(&other.triangles);
     }
 
     /// All events in order.

@@ -26,6 +26,25 @@ impl Tree {
         self.settle(parent);
     }
 
+    /// Gives the elements other names: `new[old]`, for all that are in the tree, of which there are `count`.
+    pub(in crate::broad_phase) fn rename(&mut self, new: &[u32], count: usize) {
+        self.leaf_of.clear();
+        self.leaf_of.resize(count, NONE);
+        if self.root == NONE {
+            return;
+        }
+        let mut stack = vec![self.root];
+        while let Some(at) = stack.pop() {
+            let node = &mut self.nodes[at as usize];
+            if node.is_leaf() {
+                node.children[0] = new[node.children[0] as usize];
+                self.leaf_of[node.children[0] as usize] = at;
+            } else {
+                stack.extend(node.children);
+            }
+        }
+    }
+
     /// Takes an element out, if it is in the tree.
     pub(in crate::broad_phase) fn remove(&mut self, element: u32) {
         let leaf = self.leaf_of.get(element as usize).copied().unwrap_or(NONE);

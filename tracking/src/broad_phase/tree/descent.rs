@@ -20,7 +20,27 @@ impl Tree {
         keep: impl Fn(u32) -> bool,
     ) -> Vec<u32> {
         let mut found = Vec::new();
-        let mut stack: Vec<u32> = Some(self.root).filter(|&root| root != NONE).into_iter().collect();
+        self.all_near(bounds, distance, |element, _| {
+            if keep(element) {
+                found.push(element);
+            }
+            true
+        });
+        found.sort_unstable();
+        found
+    }
+
+    /// Whether a condition holds for all elements whose boxes are within a distance of a box. It is asked in no
+    /// particular order, and not after it fails.
+    pub(in crate::broad_phase) fn all_near(
+        &self,
+        bounds: &Box3,
+        distance: f64,
+        mut holds: impl FnMut(u32, &Box3) -> bool,
+    ) -> bool {
+        // Deep enough for any tree of fewer than 2^32 leaves that is balanced as this one; others grow on the heap.
+        let mut stack: Vec<u32> = Vec::with_capacity(64);
+        stack.extend(Some(self.root).filter(|&root| root != NONE));
         while let Some(at) = stack.pop() {
             let node = &self.nodes[at as usize];
             if apart(&node.bounds, bounds, distance) {
@@ -28,12 +48,11 @@ impl Tree {
             }
             if !node.is_leaf() {
                 stack.extend(node.children);
-            } else if keep(node.children[0]) {
-                found.push(node.children[0]);
+            } else if !holds(node.children[0], &node.bounds) {
+                return false;
             }
         }
-        found.sort_unstable();
-        found
+        true
     }
 }
 

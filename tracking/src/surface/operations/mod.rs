@@ -2,6 +2,7 @@
 
 mod apply;
 mod collapse;
+mod cut;
 mod flip;
 mod replace;
 mod separate;
@@ -10,7 +11,7 @@ mod split;
 use super::attributes::transfer::Entry;
 use super::connectivity::change::{Change, PlannedChange};
 use super::connectivity::{Consequences, Refusal};
-use super::{EventKind, MovingSurface};
+use super::{EventKind, MovingSurface, VertexValueError};
 use glam::DVec3;
 use welter_meshing::surface::{EdgeId, TriId, VertexId};
 
@@ -39,6 +40,24 @@ impl Plan {
     #[must_use]
     pub fn positions(&self) -> &[(VertexId, DVec3)] {
         &self.positions
+    }
+
+    /// Puts a vertex that is new or moves elsewhere than on the straight line of which the plan was made. Values are passed on
+    /// as planned.
+    ///
+    /// # Errors
+    /// [`VertexValueError::Position`] for a coordinate that is not finite.
+    ///
+    /// # Panics
+    /// If the plan neither makes nor moves the vertex.
+    pub fn place(&mut self, vertex: VertexId, position: DVec3) -> Result<(), VertexValueError> {
+        let entry = self.positions.iter_mut().find(|(v, _)| *v == vertex);
+        let (_, place) = entry.expect("a vertex that the plan makes or moves");
+        if !position.is_finite() {
+            return Err(VertexValueError::Position { vertex, position });
+        }
+        *place = position;
+        Ok(())
     }
 
     /// The triangles that would get other corners, with those corners.

@@ -1,0 +1,76 @@
+//! Null-space smoothing \[Jiao07\] \[Brochu12, section 3.2.4\].
+//!
+//! Rule: each vertex goes towards the mean of its triangles' centroids, weighted by area, but only in the null space of its
+//! quadric metric tensor: within the surface where that is smooth, along a ridge, not at all at a corner. On a boundary
+//! it goes along the boundary, towards the middle between its neighbours; immovable vertices and those where more than two
+//! sheets meet stay. No vertex goes farther than [`REACH`] of its nearest neighbour's distance. All go at once, as
+//! a pseudo-motion, which is made safe as any other motion.
+
+use super::workpiece::Workpiece;
+use crate::quadric::VertexQuadric;
+use crate::surface::MovingSurface;
+use glam::DVec3;
+use rayon::prelude::*;
+use welter_meshing::surface::VertexId;
+
+/// Of two neighbours that go towards each other none passes the other, nor does a vertex of a fair triangle pass the
+/// opposite side.
+const REACH: f64 = 0.25;
+
+/// Where smoothing would put the vertices, by slot.
+pub(crate) fn smoothed(surface: &MovingSurface, ridge_threshold: f64) -> Vec<DVec3> {
+    let slots = 0..surface.connectivity().vertex_slots();
+    slots.into_par_iter().map(|v| place(surface, VertexId::from_index(v), ridge_threshold)).collect()
+}
+
+fn place(surface: &MovingSurface, v: VertexId, ridge_threshold: f64) -> DVec3 {
+    let mesh = surface.connectivity();
+    let here = surface.position(v);
+    if !mesh.has_vertex(v) || surface.masses()[v.index()].is_infinite() {
+        return here;
+    }
+    let (mut sum, mut weight, mut nearest) = (DVec3::ZERO, 0.0, f64::INFINITY);
+    let mut ends = [None; 2];
+    for h in mesh.star(v) {
+        let [p, q] = [mesh.head(h), mesh.apex(h)].map(|w| surface.position(w) - here);
+        let area = p.cross(q).length();
+        sum += area * ((p + q) / 3.0);
+        weight += area;
+        nearest = nearest.min(p.length()).min(q.length());
+        for (edge, way) in [(mesh.edge(h), p), (mesh.edge(h.previous()), q)] {
+            match mesh.edge_triangles(edge) {
+                2 => {}
+                1 => match ends.iter_mut().find(|end| end.is_none()) {
+                    Some(end) => *end = Some(way),
+                    None => return here,
+                },
+                _ => return here,
+            }
+        }
+    }
+    let way = match ends {
+        [Some(p), Some(q)] => along_boundary(p, q),
+        _ if weight > 0.0 => VertexQuadric::new(surface, v).null_part(sum / weight, ridge_threshold),
+        _ => DVec3::ZERO,
+    };
+    let length = way.length();
+    let most = REACH * nearest;
+    let moved = if length > most { here + (most / length) * way } else { here + way };
+    if moved.is_finite() { moved } else { here }
+}
+
+/// Towards the middle between two neighbours on a boundary, along it; nowhere where it bends by more than 60 degrees.
+fn along_boundary(p: DVec3, q: DVec3) -> DVec3 {
+    if -p.dot(q) < 0.5 * p.length() * q.length() {
+        return DVec3::ZERO;
+    }
+    let tangent = (q - p).normalize_or_zero();
+    tangent.dot(0.5 * (p + q)) * tangent
+}
+
+impl Workpiece<'_> {
+    /// Where smoothing would put the vertices.
+    pub(crate) fn smoothed(&self) -> Vec<DVec3> {
+        smoothed(self.surface, self.parameters.ridge_threshold)
+    }
+}

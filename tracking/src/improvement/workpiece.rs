@@ -1,0 +1,95 @@
+//! [`Workpiece`]: a surface under improvement, and what all operations ask of a change.
+
+use super::embedding::Replacement;
+use super::report::ImprovementReport;
+use super::shape::{area_vector, six_volumes};
+use super::sizing::Sizing;
+use super::{ImprovementParameters, TopologyParameters};
+use crate::broad_phase::BroadPhase;
+use crate::surface::{HalfEdge, MovingSurface, Outcome, Plan};
+use glam::DVec3;
+use welter_meshing::surface::{EdgeId, TriId, VertexId};
+
+/// See the module.
+pub(crate) struct Workpiece<'a> {
+    pub(crate) surface: &'a mut MovingSurface,
+    pub(crate) broad_phase: &'a mut BroadPhase,
+    pub(crate) parameters: &'a ImprovementParameters,
+    pub(crate) topology: &'a TopologyParameters,
+    /// The reference length of the tracker.
+    pub(crate) length: f64,
+    pub(crate) sizing: Sizing,
+    /// Cosine of the largest turn of a normal.
+    pub(crate) least_agreement: f64,
+    /// Vertices that changes may have made singular.
+    pub(crate) suspects: Vec<VertexId>,
+    pub(crate) report: ImprovementReport,
+}
+
+impl Workpiece<'_> {
+    #[inline]
+    pub(crate) fn at(&self, v: VertexId) -> DVec3 {
+        self.surface.position(v)
+    }
+
+    #[inline]
+    pub(crate) fn places(&self, t: TriId) -> [DVec3; 3] {
+        self.surface.connectivity().corners(t).map(|v| self.at(v))
+    }
+
+    /// The length of an edge over the one that is aimed at there: 1 for the reference without adaption.
+    #[inline]
+    pub(crate) fn relative_length(&self, [a, b]: [VertexId; 2]) -> f64 {
+        self.at(a).distance(self.at(b)) / (self.length * self.sizing.of([a, b]))
+    }
+
+    /// Whether a vertex is never moved.
+    #[inline]
+    pub(crate) fn immovable(&self, v: VertexId) -> bool {
+        self.surface.masses()[v.index()].is_infinite()
+    }
+
+    /// The two half-edges of an edge that has just two triangles.
+    pub(crate) fn two_sides(&self, edge: EdgeId) -> Option<[HalfEdge; 2]> {
+        let mut around = self.surface.connectivity().around_edge(edge);
+        let sides = [around.next()?, around.next()?];
+        around.next().is_none().then_some(sides)
+    }
+
+    /// Whether a vertex is at the end of a surface, or where more than two sheets meet: an edge of it has another number of
+    /// triangles than two.
+    pub(crate) fn is_special(&self, v: VertexId) -> bool {
+        let mesh = self.surface.connectivity();
+        mesh.star(v).any(|h| {
+            self.two_sides(mesh.edge(h)).is_none() || self.two_sides(mesh.edge(h.previous())).is_none()
+        })
+    }
+
+    /// Whether no triangle that comes is degenerate or turned away from all that go.
+    pub(crate) fn keeps_normals(&self, before: &[[DVec3; 3]], after: &[[DVec3; 3]]) -> bool {
+        let normals: Vec<DVec3> = before.iter().map(|&t| area_vector(t).normalize_or_zero()).collect();
+        after.iter().all(|&t| {
+            let area = area_vector(t);
+            let length = area.length();
+            let limit = self.least_agreement * length;
+            length > 0.0 && normals.iter().any(|n| n.dot(area) >= limit && *n != DVec3::ZERO)
+        })
+    }
+
+    /// Whether the volume between triangles and a tip is at most a part of the cube of the reference length.
+    pub(crate) fn small_volume(&self, before: &[[DVec3; 3]], tip: DVec3, part: f64) -> bool {
+        // Of lengths over the reference, so that nothing underflows.
+        let scaled = |p: DVec3| (p - tip) / self.length;
+        let volume =
+            before.iter().map(|t| t.map(scaled)).map(|t| six_volumes(&[t], DVec3::ZERO)).sum::<f64>();
+        volume.abs() <= 6.0 * part
+    }
+
+    /// Carries out a change that was admitted.
+    pub(crate) fn carry_out(&mut self, plan: Plan, replacement: &Replacement) -> Outcome {
+        let outcome = self.surface.apply(plan);
+        let touched = replacement.old.iter().chain(&outcome.triangles).copied();
+        self.broad_phase.set_triangles(self.surface, touched);
+        outcome
+    }
+}
