@@ -11,6 +11,9 @@
 //! [`broad_phase`]: which elements of such a surface may come near each other, at rest or along a step. It promises to miss
 //! none, without a tolerance, and to follow changes without being built anew.
 //!
+//! [`flows`]: where vertices want to go: velocity fields, motion along normals, mean curvature. It promises finite
+//! positions, and says which vertex fails.
+//!
 //! [`quadric`]: whether the surface is smooth, a ridge or a corner at a vertex. It promises the same bits at every scale.
 //!
 //! [`queries`]: the reader of continuous collision queries with known answers.
@@ -27,6 +30,7 @@
 pub mod broad_phase;
 pub mod collision;
 pub mod improvement;
+pub mod flows;
 pub mod quadric;
 pub mod queries;
 pub mod surface;

@@ -1,6 +1,9 @@
 //! Powers of two that bring the star of a vertex to a size near one: [`Scale`].
 
+use std::ops::Mul;
+
 use glam::DVec3;
+use rayon::prelude::*;
 use welter_meshing::surface::VertexId;
 
 use crate::surface::MovingSurface;
@@ -32,8 +35,29 @@ impl Scale {
         if whole.is_finite() { Self::of_length(whole, 1.0) } else { Self::of_length(longest(0.5), 0.5) }
     }
 
+    /// The scale in which the longest side of the bounding box of all positions, also those of free ids, is in [1/2, 1).
+    pub(crate) fn of_surface(surface: &MovingSurface) -> Self {
+        let empty = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        // Minimum and maximum do not depend on the order.
+        let (min, max) = surface
+            .positions()
+            .par_iter()
+            .with_min_len(4096)
+            .fold(empty, |(min, max), &p| (min.min(p), max.max(p)))
+            .reduce(empty, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        if surface.positions().is_empty() {
+            return Self::of_length(0.0, 1.0);
+        }
+        let whole = (max - min).max_element();
+        if whole.is_finite() {
+            Self::of_length(whole, 1.0)
+        } else {
+            Self::of_length((0.5 * max - 0.5 * min).max_element(), 0.5)
+        }
+    }
+
     /// The scale in which a length that was measured after multiplication with `before` is in [1/2, 1).
-    fn of_length(length: f64, before: f64) -> Self {
+    pub(crate) fn of_length(length: f64, before: f64) -> Self {
         let (_, exponent) = libm::frexp(length);
         let half = exponent / 2;
         Self {
@@ -49,6 +73,12 @@ impl Scale {
         (a * self.before - b * self.before) * self.after[0] * self.after[1]
     }
 
+    /// A true length, or a vector of lengths, in scaled length.
+    #[inline]
+    pub(crate) fn scaled<T: Mul<f64, Output = T>>(&self, length: T) -> T {
+        length * self.before * self.after[0] * self.after[1]
+    }
+
     /// A vector of scaled length in true length.
     #[inline]
     pub(crate) fn restored(&self, scaled: DVec3) -> DVec3 {
@@ -56,9 +86,14 @@ impl Scale {
         scaled * power_of_two(half) * power_of_two(self.exponent - half)
     }
 
-    /// A number of the dimension length^power in true size. Rounds where it is subnormal only.
+    /// A number of the dimension length^power in true size.
     pub(crate) fn restored_power(&self, scaled: f64, power: i32) -> f64 {
         libm::scalbn(scaled, power * self.exponent)
+    }
+
+    /// A number of the dimension length^power in scaled size.
+    pub(crate) fn scaled_power(&self, size: f64, power: i32) -> f64 {
+        libm::scalbn(size, -power * self.exponent)
     }
 }
 

@@ -1,0 +1,88 @@
+//! Motion with a velocity that is given at every point and time: [`Advection`].
+//!
+//! Each vertex follows `dx/dt = v(x, t)` on its own, by the explicit Euler method (error of order 1 in the time step)
+//! or the classical method of Runge and Kutta \[Kutta01\] (order 4 where the field has four continuous derivatives).
+
+use glam::DVec3;
+use welter_meshing::surface::VertexId;
+
+use super::{Flow, FlowError, Prediction, move_each, require_step};
+use crate::surface::MovingSurface;
+
+/// A velocity at every point and time. Closures of a position and a time are such fields.
+pub trait VelocityField: Sync {
+    /// The velocity at a position and a time.
+    fn velocity(&self, position: DVec3, time: f64) -> DVec3;
+}
+
+impl<F: Fn(DVec3, f64) -> DVec3 + Sync> VelocityField for F {
+    fn velocity(&self, position: DVec3, time: f64) -> DVec3 {
+        self(position, time)
+    }
+}
+
+/// How positions follow from velocities.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scheme {
+    /// One evaluation, at the beginning.
+    Euler,
+    /// Four evaluations: at the beginning, twice in the middle, at the end.
+    #[default]
+    Rk4,
+}
+
+/// The flow of a velocity field.
+///
+/// ```
+/// use glam::DVec3;
+/// use welter_meshing::shapes::{Sphere, sphere};
+/// use welter_tracking::flows::{Advection, Flow, Scheme};
+/// use welter_tracking::surface::MovingSurface;
+///
+/// let surface = MovingSurface::new(&*sphere(&Sphere { edge_length: 0.5, ..Sphere::default() })?)?;
+/// let flow = Advection { field: |p: DVec3, t: f64| t * p, scheme: Scheme::Rk4 };
+/// let prediction = flow.advance(&surface, 0.0, 1.0)?;
+/// // Positions grow by the square root of e.
+/// let ratio = prediction.ends[0].length() / surface.positions()[0].length();
+/// assert!((ratio - 0.5_f64.exp()).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Advection<F> {
+    /// The velocities.
+    pub field: F,
+    /// How to follow them. Default: Runge and Kutta.
+    pub scheme: Scheme,
+}
+
+impl<F: VelocityField> Advection<F> {
+    fn velocity(&self, vertex: VertexId, position: DVec3, time: f64) -> Result<DVec3, FlowError> {
+        let velocity = self.field.velocity(position, time);
+        if velocity.is_finite() {
+            Ok(velocity)
+        } else {
+            Err(FlowError::Velocity { vertex, position, time, velocity })
+        }
+    }
+
+    fn end(&self, vertex: VertexId, start: DVec3, time: f64, dt: f64) -> Result<DVec3, FlowError> {
+        let at = |position: DVec3, time: f64| self.velocity(vertex, position, time);
+        let v1 = at(start, time)?;
+        if self.scheme == Scheme::Euler {
+            return Ok(start + dt * v1);
+        }
+        let half = 0.5 * dt;
+        let v2 = at(start + half * v1, time + half)?;
+        let v3 = at(start + half * v2, time + half)?;
+        let v4 = at(start + dt * v3, time + dt)?;
+        Ok(start + dt * ((v1 + 2.0 * (v2 + v3) + v4) / 6.0))
+    }
+}
+
+impl<F: VelocityField> Flow for Advection<F> {
+    fn advance(&self, surface: &MovingSurface, time: f64, dt: f64) -> Result<Prediction, FlowError> {
+        require_step(dt)?;
+        let ends = move_each(surface, |vertex, start| self.end(vertex, start, time, dt))?;
+        Ok(Prediction { ends, dt })
+    }
+}
