@@ -5,4 +5,5 @@
 
 mod broad_phase;
 mod collision;
+mod improvement;
 mod surface;

@@ -29,8 +29,10 @@
 
 pub mod broad_phase;
 pub mod collision;
-pub mod improvement;
 pub mod flows;
+pub mod improvement;
+pub mod integration;
 pub mod quadric;
 pub mod queries;
 pub mod surface;
+pub mod tracker;

@@ -125,7 +125,9 @@ impl BroadPhase {
             touched.edges.extend(event.edges.iter().map(|change| change.edge));
             touched.triangles.extend(event.triangles.iter().map(|change| change.triangle));
             match event.kind {
-                EventKind::Collapse { kept, .. } => touched.star(surface.connectivity(), kept),
+                EventKind::Collapse { kept: vertex, .. } | EventKind::Separate { vertex } => {
+                    touched.star(surface.connectivity(), vertex);
+                }
                 EventKind::Cut { ring, .. } => {
                     ring.iter().for_each(|&v| touched.star(surface.connectivity(), v));
                 }

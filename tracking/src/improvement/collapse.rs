@@ -10,7 +10,8 @@
 //!
 //! Topology: a collapse is plain if the ends have no common neighbours but the apexes of the edge's triangles, as the link
 //! condition \[Dey99\] says. Others would join sheets at an edge. Where changes of topology are switched on, and
-//! the edge lies on a ring of three edges that bounds no triangle, the surface is parted along the ring instead (`ring`).
+//! the edge lies on a ring of three edges that bounds no triangle, the surface is parted along the ring instead
+//! (`separation`); but a small tip that a ring bounds is replaced by a triangle first.
 //! A tetrahedron that collapses vanishes.
 
 use super::embedding::Replacement;
@@ -65,15 +66,23 @@ impl Workpiece<'_> {
 
     /// Collapses an edge; the vertex that remains, unless it is refused.
     pub(crate) fn collapse(&mut self, edge: EdgeId) -> Option<VertexId> {
-        let kind = self.kind_of_collapse(edge);
-        match kind {
+        match self.kind_of_collapse(edge) {
             Kind::Plain => {}
-            Kind::Ring(third) if self.topology.enabled => {
+            Kind::Ring(third) => {
                 let [a, b] = self.surface.connectivity().ends(edge);
-                self.part_along_ring([a, b, third]);
+                if self.cap_tip([a, b, third]) {
+                    // The edge is still there, and what stood in its way is not.
+                    let stands = self.surface.connectivity().has_edge(edge);
+                    return if stands { self.collapse(edge) } else { None };
+                }
+                if self.topology.enabled {
+                    self.part_along_ring([a, b, third]);
+                } else {
+                    self.report.refused.topology += 1;
+                }
                 return None;
             }
-            Kind::Ring(_) | Kind::Pinch => {
+            Kind::Pinch => {
                 self.report.refused.topology += 1;
                 return None;
             }
@@ -127,8 +136,6 @@ impl Workpiece<'_> {
         }
         if cancelled {
             self.report.cancelled += self.surface.consequences(&plan).cancelled.len() as u64;
-            let corners = replacement.old.iter().flat_map(|&t| self.surface.connectivity().corners(t));
-            self.suspects.extend(corners);
         }
         self.carry_out(plan, &replacement);
         self.report.collapses += 1;
@@ -177,6 +184,18 @@ impl Workpiece<'_> {
         if joined { Kind::Pinch } else { Kind::Plain }
     }
 
+    /// Whether the special edges of a vertex (those of another number of triangles than two) are other than two that go straight
+    /// on, up to 30 degrees.
+    fn ends_a_line(&self, v: VertexId) -> bool {
+        let mesh = self.surface.connectivity();
+        let special = mesh.edges_at(v).into_iter().filter(|&e| self.two_sides(e).is_none());
+        let ways: Vec<DVec3> = special.map(|e| self.at(mesh.other_end(e, v)) - self.at(v)).collect();
+        match ways[..] {
+            [p, q] => -p.dot(q) < STRAIGHT * p.length() * q.length(),
+            _ => true,
+        }
+    }
+
     /// Which end remains, and where it may go; nothing if neither may be moved.
     fn choose(&self, edge: EdgeId) -> Option<Choice> {
         let [a, b] = self.surface.connectivity().ends(edge);
@@ -191,7 +210,14 @@ impl Workpiece<'_> {
         let on_edge = self.two_sides(edge).is_none();
         let special = [a, b].map(|v| self.is_special(v));
         match special {
-            [true, true] if on_edge => return choice(a, Place::OnRidge),
+            [true, true] if on_edge => {
+                return match [a, b].map(|v| self.ends_a_line(v)) {
+                    [true, true] => None,
+                    [true, false] => choice(a, Place::AtKept),
+                    [false, true] => choice(b, Place::AtKept),
+                    [false, false] => choice(a, Place::OnRidge),
+                };
+            }
             [true, false] => return choice(a, Place::AtKept),
             [false, true] => return choice(b, Place::AtKept),
             _ => {}
@@ -210,6 +236,9 @@ impl Workpiece<'_> {
 
 /// Above this [`sharpness`] a collapse may not make the worst triangle worse: angles below 15 degrees or so.
 const SHARP: f64 = 16.0;
+
+/// Cosine of 30 degrees.
+const STRAIGHT: f64 = 0.866_025_403_784_438_6;
 
 #[derive(Clone, Copy, Debug)]
 enum Reason {

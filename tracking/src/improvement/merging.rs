@@ -83,7 +83,6 @@ impl Workpiece<'_> {
         };
         let mut turns = [0, 1, 2, 3].map(|turn| (across(turn), turn));
         turns.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let corners: Vec<VertexId> = p.iter().chain(&q).copied().collect();
         let mut reason = None;
         for (turn, other_diagonal) in turns.iter().flat_map(|&(_, turn)| [(turn, false), (turn, true)]) {
             let add = tube(p, q, turn, other_diagonal);
@@ -104,7 +103,6 @@ impl Workpiece<'_> {
             self.report.cancelled += consequences.cancelled.len() as u64;
             let outcome = self.surface.apply(plan);
             self.broad_phase.set_triangles(self.surface, gone.into_iter().chain(outcome.triangles));
-            self.suspects.extend(corners);
             self.report.merges += 1;
             return;
         }

@@ -81,7 +81,6 @@ impl Stage<'_> {
             length: self.length,
             sizing,
             least_agreement: libm::cos(self.parameters.max_normal_turn.to_radians()),
-            suspects: Vec::new(),
             report: ImprovementReport::default(),
         };
         work(&mut piece);

@@ -9,9 +9,11 @@
 //!
 //! On a boundary the four-point scheme along it: `(9 (p1 + p2) - (o1 + o2)) / 16`.
 //!
-//! On ridges and corners none of these applies: they would round them off. There the middle is taken.
+//! On ridges and corners none of these applies: they would round them off. There the middle is taken; and where a stencil reaches
+//! beyond a ridge, the point there is replaced by the one of a flat continuation.
 
 use super::SplitScheme;
+use super::shape::area_vector;
 use super::workpiece::Workpiece;
 use crate::quadric::VertexQuadric;
 use crate::surface::HalfEdge;
@@ -71,11 +73,19 @@ pub(crate) fn of_collapse(piece: &Workpiece<'_>, edge: EdgeId) -> Option<DVec3> 
     .filter(|place| place.is_finite())
 }
 
-/// The apex of the triangle beyond a half-edge, if there is just one.
+/// The apex of the triangle beyond a half-edge, if there is just one. Beyond a ridge there is another patch, which says nothing of
+/// this one: there, it is where it would be on a flat regular triangulation.
 fn beyond(piece: &Workpiece<'_>, h: HalfEdge) -> Option<DVec3> {
     let mesh = piece.surface.connectivity();
     let [s, t] = piece.two_sides(mesh.edge(h))?;
-    Some(piece.at(mesh.apex(if s == h { t } else { s })))
+    let other = if s == h { t } else { s };
+    let [n, m] = [h, other].map(|h| area_vector(piece.places(h.triangle())).normalize_or_zero());
+    // Two planes whose normals differ by the angle a have eigenvalues in the ratio tan^2 (a / 2).
+    let threshold = piece.parameters.ridge_threshold;
+    if n.dot(m) < (1.0 - threshold) / (1.0 + threshold) {
+        return Some(piece.at(mesh.tail(h)) + piece.at(mesh.head(h)) - piece.at(mesh.apex(h)));
+    }
+    Some(piece.at(mesh.apex(other)))
 }
 
 fn butterfly(piece: &Workpiece<'_>, sides: [HalfEdge; 2]) -> Option<DVec3> {

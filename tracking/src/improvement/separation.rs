@@ -5,61 +5,158 @@
 //! something around it has changed.
 //!
 //! Rings of three edges that bound no triangle are cut where an edge of theirs would collapse \[Wojtan10\]: both parts are
-//! closed by a triangle, so that no edge with more than two triangles comes about.
+//! closed by a triangle, so that no edge with more than two triangles comes about. Where one side is but a small tip, it is replaced
+//! by a triangle, which is no change of topology.
 
+use super::embedding::Replacement;
 use super::parting::SHIFTS;
 use super::workpiece::Workpiece;
+use crate::surface::HalfEdge;
 use glam::DVec3;
-use welter_meshing::surface::VertexId;
+use welter_meshing::surface::{TriId, VertexId};
+
+/// The most triangles of a tip: a few rings of neighbours around its vertex.
+const MOST_OF_A_TIP: usize = 32;
 
 impl Workpiece<'_> {
-    /// Separates the vertices that changes may have made singular.
+    /// Separates all singular vertices.
     pub(crate) fn separate_singular_vertices(&mut self) {
-        let mut suspects = std::mem::take(&mut self.suspects);
-        suspects.sort_unstable();
-        suspects.dedup();
-        for v in suspects {
-            if self.surface.connectivity().has_vertex(v) {
+        for v in (0..self.surface.connectivity().vertex_slots() as u32).map(VertexId) {
+            if !self.has_one_fan(v) {
                 self.separate(v);
             }
         }
     }
 
-    fn separate(&mut self, v: VertexId) {
-        if self.surface.connectivity().fans(v).len() < 2 {
-            return;
+    /// Whether a walk around a vertex surely passes all of its triangles; vertices not in use have none.
+    fn has_one_fan(&self, v: VertexId) -> bool {
+        let mesh = self.surface.connectivity();
+        let Some(start) = mesh.star(v).next() else { return true };
+        let (mut h, mut passed) = (start, 0);
+        loop {
+            passed += 1;
+            let back = h.previous();
+            let Some([s, t]) = self.two_sides(mesh.edge(back)) else { break };
+            h = if s == back { t } else { s };
+            if h == start {
+                break;
+            }
         }
+        passed == mesh.vertex_triangles(v) || mesh.fans(v).len() == 1
+    }
+
+    fn separate(&mut self, v: VertexId) {
         let Ok(Some(plan)) = self.surface.plan_separation(v) else {
             self.report.refused.topology += 1;
             return;
         };
+        let mesh = self.surface.connectivity();
         let here = self.at(v);
-        let births: Vec<VertexId> = plan.positions().iter().map(|&(birth, _)| birth).collect();
-        let means: Vec<DVec3> = births
-            .iter()
-            .map(|&birth| {
-                let own = plan.changed().iter().filter(|(_, corners)| corners.contains(&birth));
-                let others = own.flat_map(|(_, corners)| *corners).filter(|&w| w != birth);
-                mean(others.map(|w| self.at(w) - here))
-            })
-            .collect();
-        for shift in SHIFTS {
+        let births: Vec<VertexId> = plan.positions().iter().map(|&(w, _)| w).filter(|&w| w != v).collect();
+        // The way of each fan: to the mean of its neighbours.
+        let moves = |t| plan.changed().iter().any(|&(changed, _)| changed == t);
+        let stay = mesh.star(v).filter(|h| !moves(h.triangle())).flat_map(|h| [mesh.head(h), mesh.apex(h)]);
+        let mut ways = vec![(v, mean(stay.map(|w| self.at(w) - here)))];
+        for &birth in &births {
+            let own = plan.changed().iter().filter(|(_, corners)| corners.contains(&birth));
+            let others = own.flat_map(|(_, corners)| *corners).filter(|&w| w != birth);
+            ways.push((birth, mean(others.map(|w| self.at(w) - here))));
+        }
+        if self.immovable(v) {
+            ways[0].1 = DVec3::ZERO;
+        }
+        // All but the first fan move, or all but the last, or all of them.
+        let last = ways.len() - 1;
+        let sets = [1..=last, 0..=last - 1, 0..=last];
+        for (shift, set) in
+            SHIFTS.into_iter().flat_map(|shift| sets.iter().map(move |set| (shift, set.clone())))
+        {
             let mut plan = plan.clone();
-            let shifted: Vec<(VertexId, DVec3)> =
-                births.iter().zip(&means).map(|(&birth, &way)| (birth, here + shift * way)).collect();
-            if shifted.iter().any(|&(birth, place)| plan.place(birth, place).is_err())
+            let mut shifted: Vec<(VertexId, DVec3)> = ways.iter().map(|&(w, _)| (w, here)).collect();
+            for i in set {
+                shifted[i].1 = here + shift * ways[i].1;
+            }
+            if shifted.iter().any(|&(w, place)| plan.place(w, place).is_err())
                 || !self.may_part(&plan, &shifted)
             {
                 continue;
             }
-            let changed: Vec<_> = plan.changed().iter().map(|&(t, _)| t).collect();
+            let mut touched: Vec<_> = plan.changed().iter().map(|&(t, _)| t).collect();
+            touched.extend(self.surface.connectivity().star(v).map(|h| h.triangle()));
             self.surface.apply(plan);
-            self.broad_phase.set_triangles(self.surface, changed.into_iter());
+            self.broad_phase.set_triangles(self.surface, touched.into_iter());
             births.iter().for_each(|&birth| self.sizing.copied(birth, v));
             self.report.separations += 1;
             return;
         }
         self.report.refused.intersection += 1;
+    }
+
+    /// Replaces a small patch that a ring of three edges bounds by one triangle: a tip, whose topology is that of a disc. Whether
+    /// it did.
+    pub(crate) fn cap_tip(&mut self, [a, b, c]: [VertexId; 3]) -> bool {
+        for ring in [[a, b, c], [a, c, b]] {
+            let Some(patch) = self.patch_to_the_left(ring) else { continue };
+            let Ok(plan) = self.surface.plan_replacement(&patch, &[ring]) else { continue };
+            let tip = self.at(a);
+            let replacement = Replacement::new(self.surface, &plan);
+            let after = replacement.places(self.surface);
+            if after.len() != 1
+                || replacement.old.len() != patch.len()
+                || !self.keeps_normals(&replacement.before, &after)
+                || !self.small_volume(&replacement.before, tip, self.parameters.max_volume_change_rel)
+                || !replacement.keeps_embedded(self.surface, self.broad_phase, tip)
+            {
+                continue;
+            }
+            self.carry_out(plan, &replacement);
+            self.report.collapses += 1;
+            return true;
+        }
+        false
+    }
+
+    /// The triangles to the left of a ring, if they are few and form a disc of which no vertex is immovable.
+    fn patch_to_the_left(&self, ring: [VertexId; 3]) -> Option<Vec<TriId>> {
+        let mesh = self.surface.connectivity();
+        let way = |h: HalfEdge| [mesh.tail(h), mesh.head(h)];
+        let on_ring = |[p, q]: [VertexId; 2]| (0..3).any(|k| [ring[k], ring[(k + 1) % 3]] == [p, q]);
+        let start = mesh.star(ring[0]).find(|&h| mesh.head(h) == ring[1])?;
+        let mut patch = vec![start.triangle()];
+        let (mut next, mut sides) = (0, 0);
+        while let Some(&t) = patch.get(next) {
+            next += 1;
+            for h in (0..3).map(|k| HalfEdge::of(t, k)) {
+                if on_ring(way(h)) {
+                    sides += 1;
+                    continue;
+                }
+                let [p, q] = self.two_sides(mesh.edge(h))?;
+                let beyond = if p == h { q } else { p };
+                let [tail, head] = way(beyond);
+                if on_ring([head, tail]) || tail == mesh.tail(h) {
+                    return None;
+                }
+                if !patch.contains(&beyond.triangle()) {
+                    patch.push(beyond.triangle());
+                }
+            }
+            if patch.len() > MOST_OF_A_TIP {
+                return None;
+            }
+        }
+        let mut vertices: Vec<VertexId> = patch.iter().flat_map(|&t| mesh.corners(t)).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        // A disc has Euler characteristic 1; three edges are on the ring, the others have two triangles.
+        let edges = (3 * patch.len() + 3) / 2;
+        let euler = vertices.len() as i64 - edges as i64 + patch.len() as i64;
+        let inner = |v: &VertexId| !ring.contains(v);
+        let whole = vertices
+            .iter()
+            .filter(|v| inner(v))
+            .all(|&v| mesh.star(v).all(|h| patch.contains(&h.triangle())) && !self.immovable(v));
+        (sides == 3 && euler == 1 && whole && patch.len() > 1).then_some(patch)
     }
 
     /// Cuts the surface along a ring of three edges. Whether it did.

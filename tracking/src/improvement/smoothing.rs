@@ -6,7 +6,6 @@
 //! sheets meet stay. No vertex goes farther than [`REACH`] of its nearest neighbour's distance. All go at once, as
 //! a pseudo-motion, which is made safe as any other motion.
 
-use super::workpiece::Workpiece;
 use crate::quadric::VertexQuadric;
 use crate::surface::MovingSurface;
 use glam::DVec3;
@@ -66,11 +65,4 @@ fn along_boundary(p: DVec3, q: DVec3) -> DVec3 {
     }
     let tangent = (q - p).normalize_or_zero();
     tangent.dot(0.5 * (p + q)) * tangent
-}
-
-impl Workpiece<'_> {
-    /// Where smoothing would put the vertices.
-    pub(crate) fn smoothed(&self) -> Vec<DVec3> {
-        smoothed(self.surface, self.parameters.ridge_threshold)
-    }
 }

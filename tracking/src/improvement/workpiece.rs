@@ -21,8 +21,6 @@ pub(crate) struct Workpiece<'a> {
     pub(crate) sizing: Sizing,
     /// Cosine of the largest turn of a normal.
     pub(crate) least_agreement: f64,
-    /// Vertices that changes may have made singular.
-    pub(crate) suspects: Vec<VertexId>,
     pub(crate) report: ImprovementReport,
 }
 

@@ -34,6 +34,7 @@ impl MovingSurface {
             change.recorner.extend(fan.iter().map(|h| moved(h.triangle())));
         }
         let mut plan = self.plan(EventKind::Separate { vertex }, change)?;
+        plan.positions.push((vertex, self.position(vertex)));
         let total = mesh.vertex_triangles(vertex) as f64;
         plan.vertices.push(Entry::new(vertex.0, vertex.0, 1.0, first.len() as f64 / total));
         for (&birth, fan) in births.iter().zip(others) {

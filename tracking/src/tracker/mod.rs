@@ -1,0 +1,364 @@
+//! The tracker: a surface that moves with a flow, is remeshed, merges and parts, and never intersects itself.
+//!
+//! # What it computes
+//! Steps of Algorithm 3 of \[Brochu12\]: static operations, the flow, integration.
+//!
+//! # What it promises
+//! * The surface is embedded before and after each step, whatever the flow and the options: each accepted set of positions
+//!   has passed the exact static check.
+//! * A step ends in bounded time. What cannot be reached without intersection is not reached: the report says how far time
+//!   went on.
+//! * A step that fails returns an error and leaves the surface as it was.
+//! * With topology switched off, no change of topology.
+//! * The same bits for any number of threads; and with all lengths (surface, flow) times a power of two, the same
+//!   connectivity and the same bits, scaled. A tracker made of the surface of another goes on with the same bits as that one:
+//!   [`SurfaceTracker::resume`].
+//!
+//! # What it does not promise
+//! That the surface follows the flow where it would meet itself: collisions change the motion, and with topology switched
+//! on changes of topology do.
+//!
+//! # Complexity
+//! A step is linear in the number of elements in practice; see [`improvement`](crate::improvement) and
+//! [`integration`](crate::integration).
+
+mod error;
+mod parameters;
+mod report;
+
+pub use error::TrackerError;
+pub use parameters::TrackerParameters;
+pub use report::{PhaseSeconds, StepReport};
+
+use crate::broad_phase::{BroadPhase, Motion};
+use crate::flows::{Flow, Prediction};
+use crate::improvement::{self, ImprovementReport, ParameterError, Stage};
+use crate::integration::{self, IntegrationReport};
+use crate::surface::{AttributeSet, EventLog, MovingSurface, VertexValueError};
+use glam::DVec3;
+use std::time::Instant;
+use welter_meshing::Monitor;
+use welter_meshing::surface::{EdgeId, TriId, VertexId};
+
+/// A surface that moves without intersecting itself.
+///
+/// ```
+/// use glam::DVec3;
+/// use welter_meshing::{Monitor, shapes::{Sphere, sphere}};
+/// use welter_tracking::flows::Advection;
+/// use welter_tracking::surface::MovingSurface;
+/// use welter_tracking::tracker::{SurfaceTracker, TrackerParameters};
+///
+/// let ball = sphere(&Sphere { edge_length: 0.3, ..Sphere::default() })?;
+/// let mut tracker = SurfaceTracker::new(MovingSurface::new(&ball)?, TrackerParameters::default())?;
+/// // Stretch it along x.
+/// let flow = Advection { field: |p: DVec3, _time: f64| DVec3::new(p.x, 0.0, 0.0), ..Default::default() };
+/// for _ in 0..5 {
+///     let report = tracker.step(&flow, 0.1, &Monitor::none())?;
+///     assert_eq!(report.dt, 0.1);
+/// }
+/// let longest = tracker.surface().positions().iter().map(|p| p.x).fold(0.0, f64::max);
+/// assert!((longest / 0.5_f64.exp() - 1.0).abs() < 0.05);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SurfaceTracker {
+    surface: MovingSurface,
+    broad_phase: BroadPhase,
+    parameters: TrackerParameters,
+    length: f64,
+    time: f64,
+    steps: u64,
+}
+
+impl SurfaceTracker {
+    /// A tracker of a surface, at time 0. The surface is compacted.
+    ///
+    /// # Errors
+    /// [`TrackerError::Parameter`]; [`TrackerError::Integration`] with the pairs of triangles if the surface intersects itself.
+    pub fn new(surface: MovingSurface, parameters: TrackerParameters) -> Result<Self, TrackerError> {
+        let length = parameters.reference_length.unwrap_or_else(|| mean_edge_length(&surface));
+        Self::resume(surface, parameters, length, 0.0, 0)
+    }
+
+    /// A tracker that goes on with the surface of another one, which had this reference length and had come to this time in so many
+    /// steps.
+    ///
+    /// # Errors
+    /// As [`SurfaceTracker::new`].
+    pub fn resume(
+        mut surface: MovingSurface,
+        parameters: TrackerParameters,
+        length: f64,
+        time: f64,
+        steps: u64,
+    ) -> Result<Self, TrackerError> {
+        parameters.improvement.validate()?;
+        parameters.topology.validate()?;
+        parameters.integration.validate()?;
+        let holds = length > 0.0 && length.is_finite() || surface.connectivity().edge_count() == 0;
+        if !holds {
+            let range = "positive and finite: the mean edge length, unless it is given";
+            return Err(ParameterError { parameter: "reference_length", value: length, range }.into());
+        }
+        if !time.is_finite() {
+            return Err(ParameterError { parameter: "time", value: time, range: "finite" }.into());
+        }
+        let _ = surface.compact();
+        let _ = surface.take_log();
+        let mut broad_phase = BroadPhase::new(&surface, Motion::Rest)?;
+        let at_rest = surface.positions().to_vec();
+        integration::accept(&mut surface, &mut broad_phase, &at_rest, &Monitor::none())?;
+        Ok(Self { surface, broad_phase, parameters, length, time, steps })
+    }
+
+    /// The surface as it is.
+    #[must_use]
+    pub fn surface(&self) -> &MovingSurface {
+        &self.surface
+    }
+
+    /// Masses and attributes, to change them.
+    pub fn values(&mut self) -> SurfaceValues<'_> {
+        SurfaceValues { surface: &mut self.surface }
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn parameters(&self) -> &TrackerParameters {
+        &self.parameters
+    }
+
+    /// The length to which relative lengths refer.
+    #[must_use]
+    pub fn reference_length(&self) -> f64 {
+        self.length
+    }
+
+    /// How far time has gone on.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// How many steps were made.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Makes one step of at most `dt`: static operations, the flow, integration.
+    ///
+    /// # Errors
+    /// [`TrackerError`]; the surface and the time are as they were then.
+    pub fn step(
+        &mut self,
+        flow: &dyn Flow,
+        dt: f64,
+        monitor: &Monitor<'_>,
+    ) -> Result<StepReport, TrackerError> {
+        self.whole_or_not(|tracker, done| {
+            tracker.static_operations(done, monitor)?;
+            let clock = Instant::now();
+            let Prediction { ends, dt: reached } = flow.advance(&tracker.surface, tracker.time, dt)?;
+            if !(reached > 0.0 && reached <= dt) {
+                return Err(TrackerError::Step { dt: reached, asked: dt });
+            }
+            done.seconds.velocity += clock.elapsed().as_secs_f64();
+            let fraction = tracker.integrate(ends, done, monitor)?;
+            done.dt = if fraction == 1.0 { reached } else { fraction * reached };
+            tracker.time += done.dt;
+            tracker.steps += 1;
+            Ok(())
+        })
+    }
+
+    /// The static operations alone \[Brochu12, Algorithm 1\]; time does not go on.
+    ///
+    /// # Errors
+    /// As [`SurfaceTracker::step`].
+    pub fn improve(&mut self, monitor: &Monitor<'_>) -> Result<StepReport, TrackerError> {
+        self.whole_or_not(|tracker, done| tracker.static_operations(done, monitor))
+    }
+
+    /// Integration alone \[Brochu12, Algorithm 2\]: moves the surface towards positions by vertex id, as far as it can go. The
+    /// report's `dt` is the part of the way; time does not go on.
+    ///
+    /// # Errors
+    /// As [`SurfaceTracker::step`].
+    pub fn move_to(&mut self, ends: Vec<DVec3>, monitor: &Monitor<'_>) -> Result<StepReport, TrackerError> {
+        self.whole_or_not(|tracker, done| {
+            done.dt = tracker.integrate(ends, done, monitor)?;
+            Ok(())
+        })
+    }
+
+    /// Carries out a part of a step, or restores the surface.
+    fn whole_or_not(
+        &mut self,
+        work: impl FnOnce(&mut Self, &mut Done) -> Result<(), TrackerError>,
+    ) -> Result<StepReport, TrackerError> {
+        let start = Instant::now();
+        let before = self.surface.clone();
+        let mut done = Done::default();
+        if let Err(error) = work(self, &mut done) {
+            self.broad_phase = BroadPhase::new(&before, Motion::Rest)?;
+            self.surface = before;
+            return Err(error);
+        }
+        done.seconds.total = start.elapsed().as_secs_f64();
+        let Done { dt, improvement, integration, log, seconds } = done;
+        Ok(StepReport { dt, improvement, integration, log, seconds })
+    }
+
+    fn static_operations(&mut self, done: &mut Done, monitor: &Monitor<'_>) -> Result<(), TrackerError> {
+        self.remesh(done)?;
+        monitor.check()?;
+        self.smooth(done, monitor)?;
+        self.change_topology(done)?;
+        monitor.check()?;
+        Ok(())
+    }
+
+    fn stage(&mut self) -> Stage<'_> {
+        Stage {
+            surface: &mut self.surface,
+            broad_phase: &mut self.broad_phase,
+            parameters: &self.parameters.improvement,
+            topology: &self.parameters.topology,
+            length: self.length,
+        }
+    }
+
+    fn remesh(&mut self, done: &mut Done) -> Result<(), TrackerError> {
+        let clock = Instant::now();
+        let (report, log) = self.stage().remesh()?;
+        done.improvement.add(&report);
+        done.seconds.improvement += clock.elapsed().as_secs_f64();
+        self.compact(&log, done);
+        Ok(())
+    }
+
+    fn smooth(&mut self, done: &mut Done, monitor: &Monitor<'_>) -> Result<(), TrackerError> {
+        if !self.parameters.improvement.smoothing {
+            return Ok(());
+        }
+        let clock = Instant::now();
+        let ends = improvement::smoothed(&self.surface, self.parameters.improvement.ridge_threshold);
+        let before = done.seconds;
+        self.integrate(ends, done, monitor)?;
+        done.improvement.smoothed += self.surface.connectivity().vertex_count() as u64;
+        let check = done.seconds.check - before.check;
+        done.seconds.collisions = before.collisions;
+        done.seconds.improvement += clock.elapsed().as_secs_f64() - check;
+        Ok(())
+    }
+
+    fn change_topology(&mut self, done: &mut Done) -> Result<(), TrackerError> {
+        if !self.parameters.topology.enabled {
+            return Ok(());
+        }
+        let clock = Instant::now();
+        let (report, log) = self.stage().change_topology()?;
+        done.improvement.add(&report);
+        done.seconds.topology += clock.elapsed().as_secs_f64();
+        self.compact(&log, done);
+        Ok(())
+    }
+
+    /// Numbers all elements anew if any came or went, so that what follows depends on the surface alone, not on its
+    /// history.
+    fn compact(&mut self, log: &EventLog, done: &mut Done) {
+        if log.is_empty() {
+            return;
+        }
+        let clock = Instant::now();
+        let renumbering = self.surface.compact();
+        self.broad_phase.renumber(&renumbering);
+        done.log.append(log);
+        done.log.append(&self.surface.take_log());
+        done.seconds.compaction += clock.elapsed().as_secs_f64();
+    }
+
+    /// Moves the surface towards the ends; the part of the way that it went.
+    fn integrate(
+        &mut self,
+        ends: Vec<DVec3>,
+        done: &mut Done,
+        monitor: &Monitor<'_>,
+    ) -> Result<f64, TrackerError> {
+        let clock = Instant::now();
+        let parameters = &self.parameters.integration;
+        let resolved = integration::resolve(
+            &self.surface,
+            &mut self.broad_phase,
+            ends,
+            self.length,
+            parameters,
+            monitor,
+        )?;
+        done.integration.add(&resolved.report);
+        done.seconds.collisions += clock.elapsed().as_secs_f64();
+        let clock = Instant::now();
+        integration::accept(&mut self.surface, &mut self.broad_phase, &resolved.ends, monitor)?;
+        done.seconds.check += clock.elapsed().as_secs_f64();
+        Ok(resolved.fraction)
+    }
+}
+
+/// What of a tracked surface may be changed from outside: all but positions and connectivity.
+#[derive(Debug)]
+pub struct SurfaceValues<'a> {
+    surface: &'a mut MovingSurface,
+}
+
+impl SurfaceValues<'_> {
+    /// Attributes of vertices.
+    #[must_use]
+    pub fn vertex_attributes(&mut self) -> &mut AttributeSet<VertexId> {
+        self.surface.vertex_attributes_mut()
+    }
+
+    /// Attributes of edges.
+    #[must_use]
+    pub fn edge_attributes(&mut self) -> &mut AttributeSet<EdgeId> {
+        self.surface.edge_attributes_mut()
+    }
+
+    /// Attributes of triangles.
+    #[must_use]
+    pub fn triangle_attributes(&mut self) -> &mut AttributeSet<TriId> {
+        self.surface.triangle_attributes_mut()
+    }
+
+    /// Gives a vertex a mass, as [`MovingSurface::set_mass`].
+    ///
+    /// # Errors
+    /// [`VertexValueError::Mass`] unless it is above zero.
+    ///
+    /// # Panics
+    /// If its id was never given out.
+    pub fn set_mass(&mut self, vertex: VertexId, mass: f64) -> Result<(), VertexValueError> {
+        self.surface.set_mass(vertex, mass)
+    }
+}
+
+/// What a step has done so far.
+#[derive(Debug, Default)]
+struct Done {
+    dt: f64,
+    improvement: ImprovementReport,
+    integration: IntegrationReport,
+    log: EventLog,
+    seconds: PhaseSeconds,
+}
+
+/// The mean of all edge lengths, added up in the order of ids.
+fn mean_edge_length(surface: &MovingSurface) -> f64 {
+    let mesh = surface.connectivity();
+    let length = |e| {
+        let [a, b] = mesh.ends(e).map(|v| surface.position(v));
+        a.distance(b)
+    };
+    mesh.edges().map(length).sum::<f64>() / mesh.edge_count() as f64
+}
