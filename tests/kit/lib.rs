@@ -13,6 +13,7 @@ pub mod exact;
 pub mod fuzz;
 pub mod generate;
 pub mod mesher;
+pub mod moving;
 pub mod surface;
 pub mod volumetric;
 

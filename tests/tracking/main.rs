@@ -6,4 +6,5 @@
 mod broad_phase;
 mod collision;
 mod improvement;
+mod integration;
 mod surface;

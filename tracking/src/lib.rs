@@ -15,6 +15,8 @@
 //! positions, and says which vertex fails.
 //!
 //! [`quadric`]: whether the surface is smooth, a ridge or a corner at a vertex. It promises the same bits at every scale.
+//! [`integration`]: from predicted positions to positions at which the surface does not intersect itself, by repulsion, impulses,
+//! impact zones and shorter steps. It promises that after every step, proven by the exact static check.
 //!
 //! [`queries`]: the reader of continuous collision queries with known answers.
 //!

@@ -13,6 +13,8 @@ pub enum Motion<'a> {
     Rest,
     /// Each goes on a straight line to its end, by vertex id; those of free ids do not matter. For collision.
     To(&'a [DVec3]),
+    /// They are at other places, by vertex id; those of free ids do not matter. To check positions before they are taken.
+    At(&'a [DVec3]),
 }
 
 /// The boxes of a surface's elements; exact, for the coordinates on a line between two points are between theirs.
@@ -24,7 +26,7 @@ pub(super) struct Boxes<'a> {
 
 impl<'a> Boxes<'a> {
     pub(super) fn new(surface: &'a MovingSurface, motion: Motion<'a>) -> Result<Self, BroadPhaseError> {
-        if let Motion::To(ends) = motion {
+        if let Motion::To(ends) | Motion::At(ends) = motion {
             let vertices = surface.connectivity().vertex_slots();
             if ends.len() != vertices {
                 return Err(BroadPhaseError::Ends { ends: ends.len(), vertices });
@@ -35,7 +37,7 @@ impl<'a> Boxes<'a> {
 
     /// Whether all of some vertices end somewhere.
     pub(super) fn check(&self, vertices: impl Iterator<Item = VertexId>) -> Result<(), BroadPhaseError> {
-        let Motion::To(ends) = self.motion else { return Ok(()) };
+        let (Motion::To(ends) | Motion::At(ends)) = self.motion else { return Ok(()) };
         for vertex in vertices {
             let end = ends[vertex.index()];
             if !end.is_finite() {
@@ -46,10 +48,12 @@ impl<'a> Boxes<'a> {
     }
 
     fn of<const N: usize>(&self, vertices: [VertexId; N]) -> Box3 {
-        let at_rest = Box3::of(vertices.map(|v| self.surface.position(v)));
+        let at_rest = || Box3::of(vertices.map(|v| self.surface.position(v)));
+        let at = |places: &[DVec3]| Box3::of(vertices.map(|v| places[v.index()]));
         match self.motion {
-            Motion::Rest => at_rest,
-            Motion::To(ends) => at_rest.union(&Box3::of(vertices.map(|v| ends[v.index()]))),
+            Motion::Rest => at_rest(),
+            Motion::To(ends) => at_rest().union(&at(ends)),
+            Motion::At(places) => at(places),
         }
     }
 

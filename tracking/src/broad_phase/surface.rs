@@ -4,6 +4,7 @@ use super::motion::Boxes;
 use super::tree::{Tree, pairs_between, self_pairs};
 use super::{BroadPhaseError, Motion};
 use crate::surface::{EventKind, EventLog, MovingSurface, RadialConnectivity, Renumbering};
+use glam::DVec3;
 use rayon::prelude::*;
 use welter_meshing::spatial::Box3;
 use welter_meshing::surface::{EdgeId, TriId, VertexId};
@@ -101,6 +102,11 @@ impl BroadPhase {
         let refresh_triangles = || triangles.refresh(|t| boxes.triangle(t));
         rayon::join(refresh_vertices, || rayon::join(refresh_edges, refresh_triangles));
         Ok(())
+    }
+
+    /// Whether there is a finite end for each vertex in use.
+    pub(crate) fn check_ends(&self, surface: &MovingSurface, ends: &[DVec3]) -> Result<(), BroadPhaseError> {
+        Boxes::new(surface, Motion::To(ends))?.check(surface.connectivity().vertices())
     }
 
     /// Takes part in the operations of a log, which led to the state that the surface has now.
@@ -230,7 +236,21 @@ impl BroadPhase {
         mesh: &RadialConnectivity,
         distance: f64,
     ) -> Result<Vec<(VertexId, TriId)>, BroadPhaseError> {
-        let keep = |v, t| !is_corner(mesh, v, t);
+        self.vertex_triangle_pairs_that(mesh, distance, |_, _| true)
+    }
+
+    /// Those of [`BroadPhase::vertex_triangle_pairs`] that pass a test, which is made within the parallel search, once
+    /// for each pair, in no order that may be relied upon. Pairs that fail are not stored.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn vertex_triangle_pairs_that(
+        &self,
+        mesh: &RadialConnectivity,
+        distance: f64,
+        test: impl Fn(VertexId, TriId) -> bool + Sync,
+    ) -> Result<Vec<(VertexId, TriId)>, BroadPhaseError> {
+        let keep = |v, t| !is_corner(mesh, v, t) && test(VertexId(v), TriId(t));
         let pairs = pairs_between(&self.vertices, &self.triangles, checked(distance)?, keep);
         Ok(pairs.into_par_iter().map(|[v, t]| (VertexId(v), TriId(t))).collect())
     }
@@ -244,8 +264,38 @@ impl BroadPhase {
         mesh: &RadialConnectivity,
         distance: f64,
     ) -> Result<Vec<[EdgeId; 2]>, BroadPhaseError> {
-        let pairs = self_pairs(&self.edges, checked(distance)?, |a, b| !have_common_end(mesh, a, b));
+        self.edge_edge_pairs_that(mesh, distance, |_, _| true)
+    }
+
+    /// Those of [`BroadPhase::edge_edge_pairs`] that pass a test, as [`BroadPhase::vertex_triangle_pairs_that`]. The test
+    /// is given the edges in either order.
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn edge_edge_pairs_that(
+        &self,
+        mesh: &RadialConnectivity,
+        distance: f64,
+        test: impl Fn(EdgeId, EdgeId) -> bool + Sync,
+    ) -> Result<Vec<[EdgeId; 2]>, BroadPhaseError> {
+        let keep = |a, b| !have_common_end(mesh, a, b) && test(EdgeId(a), EdgeId(b));
+        let pairs = self_pairs(&self.edges, checked(distance)?, keep);
         Ok(pairs.into_par_iter().map(|pair| pair.map(EdgeId)).collect())
+    }
+
+    /// All pairs of triangles whose boxes are within a distance and that pass a test, the smaller id first, sorted; also
+    /// those that share vertices. The test as in [`BroadPhase::edge_edge_pairs_that`].
+    ///
+    /// # Errors
+    /// [`BroadPhaseError::Distance`].
+    pub fn triangle_pairs_that(
+        &self,
+        distance: f64,
+        test: impl Fn(TriId, TriId) -> bool + Sync,
+    ) -> Result<Vec<[TriId; 2]>, BroadPhaseError> {
+        let keep = |a, b| test(TriId(a), TriId(b));
+        let pairs = self_pairs(&self.triangles, checked(distance)?, keep);
+        Ok(pairs.into_par_iter().map(|pair| pair.map(TriId)).collect())
     }
 
     /// All edges and triangles whose boxes are within a distance, sorted; without the sides of a triangle.

@@ -44,6 +44,7 @@ pub mod time_of_impact;
 pub use closest_points::ClosestPoints;
 pub use error::CollisionError;
 pub use minimum_separation::{Approach, MinimumSeparationParameters};
+pub(crate) use polygon::{length, unit};
 pub use time_of_impact::{Impact, TimeOfImpactParameters};
 
 use welter_predicates::Point;

@@ -216,13 +216,13 @@ fn on_grid(parameter: f64) -> f64 {
 }
 
 /// The length of a vector, without underflow.
-pub(super) fn length(v: DVec3) -> f64 {
+pub(crate) fn length(v: DVec3) -> f64 {
     let size = v.abs().max_element();
     if size == 0.0 { 0.0 } else { size * (v / size).length() }
 }
 
 /// The unit vector along `v`, unless that is zero.
-pub(super) fn unit(v: DVec3) -> Option<DVec3> {
+pub(crate) fn unit(v: DVec3) -> Option<DVec3> {
     let size = v.abs().max_element();
     let v = v / size;
     v.is_finite().then(|| v / v.length())

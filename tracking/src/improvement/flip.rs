@@ -67,7 +67,10 @@ impl Workpiece<'_> {
         let before = [[pa, pb, pc], [pb, pa, pd]];
         let after = [[pc, pa, pd], [pd, pb, pc]];
         let worst = |pair: &[[glam::DVec3; 3]; 2]| sharpness(pair[0]).max(sharpness(pair[1]));
-        if !(worst(&after) < worst(&before) || worst(&after) < MILD) || !self.keeps_normals(&before, &after) {
+        let fair = worst(&after) < worst(&before) || worst(&after) < MILD;
+        // Both normals are near to both: a ridge is not flipped.
+        let turns = before.iter().any(|&t| !self.keeps_normals(&[t], &after));
+        if !fair || turns {
             self.report.refused.shape += 1;
             return false;
         }

@@ -4,7 +4,7 @@
 //! before it goes parallel. The number of tasks does not depend on the number of threads.
 
 use super::super::gap::apart;
-use super::{NONE, Tree, half_girth};
+use super::{NONE, Node, Tree};
 use rayon::prelude::*;
 use welter_meshing::spatial::Box3;
 
@@ -83,64 +83,81 @@ struct Descent<'a> {
     distance: f64,
 }
 
-/// What comes of a pair of nodes.
-enum Step {
-    Nothing,
-    Leaves,
-    Two([[u32; 2]; 2]),
-    Three([[u32; 2]; 3]),
-}
-
 impl Descent<'_> {
+    fn nodes(&self, [i, j]: [u32; 2]) -> [&Node; 2] {
+        [&self.trees[0].nodes[i as usize], &self.trees[1].nodes[j as usize]]
+    }
+
+    fn stands_for_itself(&self, [i, j]: [u32; 2]) -> bool {
+        self.same && i == j
+    }
+
+    /// Puts the parts of a pair that may have something to tell on a stack. Of two inner nodes both are opened, which takes
+    /// half the steps of opening the larger one, and keeps their sizes alike as well.
     #[inline]
-    fn step(&self, [i, j]: [u32; 2]) -> Step {
-        let [a, b] = [&self.trees[0].nodes[i as usize], &self.trees[1].nodes[j as usize]];
-        if self.same && i == j {
+    fn open(&self, at: [u32; 2], parts: &mut Vec<[u32; 2]>) {
+        let [a, b] = self.nodes(at);
+        if self.stands_for_itself(at) {
             let [first, second] = a.children;
-            return match a.is_leaf() {
-                true => Step::Nothing,
-                false => Step::Three([[first, first], [second, second], [first, second]]),
-            };
-        }
-        if apart(&a.bounds, &b.bounds, self.distance) {
-            return Step::Nothing;
-        }
-        // The larger is opened, so that both become small together.
-        match (a.is_leaf(), b.is_leaf()) {
-            (true, true) => Step::Leaves,
-            (false, leaf) if leaf || half_girth(&a.bounds) >= half_girth(&b.bounds) => {
-                Step::Two(a.children.map(|child| [child, j]))
+            for child in [first, second] {
+                if !self.trees[0].nodes[child as usize].is_leaf() {
+                    parts.push([child, child]);
+                }
             }
-            _ => Step::Two(b.children.map(|child| [i, child])),
+            self.push([first, second], parts);
+            return;
+        }
+        match (a.is_leaf(), b.is_leaf()) {
+            (true, _) => b.children.iter().for_each(|&child| self.push([at[0], child], parts)),
+            (false, true) => a.children.iter().for_each(|&child| self.push([child, at[1]], parts)),
+            (false, false) => {
+                for first in a.children {
+                    b.children.iter().for_each(|&second| self.push([first, second], parts));
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn push(&self, at: [u32; 2], parts: &mut Vec<[u32; 2]>) {
+        let [a, b] = self.nodes(at);
+        if !apart(&a.bounds, &b.bounds, self.distance) {
+            parts.push(at);
         }
     }
 
     fn pairs(&self, pair: impl Fn(u32, u32) -> Option<[u32; 2]> + Sync) -> Vec<[u32; 2]> {
-        let roots = self.trees.map(|tree| tree.root);
-        if roots.contains(&NONE) {
-            return Vec::new();
-        }
         let found: Vec<Vec<[u32; 2]>> =
-            self.tasks(roots).into_par_iter().with_max_len(1).map(|task| self.run(task, &pair)).collect();
+            self.tasks().into_par_iter().with_max_len(1).map(|task| self.run(task, &pair)).collect();
         let mut pairs = found.concat();
         pairs.par_sort_unstable();
         pairs
     }
 
-    fn tasks(&self, roots: [u32; 2]) -> Vec<[u32; 2]> {
-        let mut tasks = vec![roots];
-        let mut open = true;
-        while open && tasks.len() < TASKS {
-            open = false;
-            let mut next = Vec::with_capacity(3 * tasks.len());
+    /// Pairs of nodes whose boxes are near, or of a node with itself; not of a leaf with itself.
+    fn tasks(&self) -> Vec<[u32; 2]> {
+        let roots = self.trees.map(|tree| tree.root);
+        let mut tasks = Vec::new();
+        if roots.contains(&NONE) {
+            return tasks;
+        }
+        if self.stands_for_itself(roots) {
+            let alone = self.trees[0].nodes[roots[0] as usize].is_leaf();
+            tasks.extend((!alone).then_some(roots));
+        } else {
+            self.push(roots, &mut tasks);
+        }
+        let mut opened = true;
+        while opened && tasks.len() < TASKS {
+            opened = false;
+            let mut next = Vec::with_capacity(4 * tasks.len());
             for task in tasks {
-                match self.step(task) {
-                    Step::Nothing => continue,
-                    Step::Leaves => next.push(task),
-                    Step::Two(tasks) => next.extend(tasks),
-                    Step::Three(tasks) => next.extend(tasks),
+                if self.nodes(task).iter().all(|node| node.is_leaf()) {
+                    next.push(task);
+                } else {
+                    self.open(task, &mut next);
+                    opened = true;
                 }
-                open |= next.last() != Some(&task);
             }
             tasks = next;
         }
@@ -150,14 +167,11 @@ impl Descent<'_> {
     fn run(&self, task: [u32; 2], pair: &(impl Fn(u32, u32) -> Option<[u32; 2]> + Sync)) -> Vec<[u32; 2]> {
         let (mut found, mut stack) = (Vec::new(), vec![task]);
         while let Some(at) = stack.pop() {
-            match self.step(at) {
-                Step::Nothing => {}
-                Step::Leaves => {
-                    let element = |k: usize| self.trees[k].nodes[at[k] as usize].children[0];
-                    found.extend(pair(element(0), element(1)));
-                }
-                Step::Two(parts) => stack.extend(parts),
-                Step::Three(parts) => stack.extend(parts),
+            let [a, b] = self.nodes(at);
+            if a.is_leaf() && b.is_leaf() {
+                found.extend(pair(a.children[0], b.children[0]));
+            } else {
+                self.open(at, &mut stack);
             }
         }
         found
