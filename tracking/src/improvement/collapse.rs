@@ -4,7 +4,7 @@
 //! * to the end that may not be moved, or that ends a surface, or where more than two sheets meet;
 //! * else to the end on the sharper feature: corner before ridge before smooth patch, by the eigenvalues of the quadric
 //!   metric tensor;
-//! * else where the subdivision scheme says, or on a ridge to the middle;
+//! * else where the subdivision scheme says, or on a ridge to the middle, shifted so that volume is kept \[Lindstrom98\];
 //!
 //! and where that is not admitted to the middle, to either end, or nowhere: the collapse is refused.
 //!
@@ -16,7 +16,7 @@
 
 use super::embedding::Replacement;
 use super::placement::{self, Feature};
-use super::shape::sharpness;
+use super::shape::{sharpness, volume_preserving};
 use super::split::ordered;
 use super::workpiece::Workpiece;
 use glam::DVec3;
@@ -95,10 +95,16 @@ impl Workpiece<'_> {
         let removed = if kept == a { b } else { a };
         let (pk, pr) = (self.at(kept), self.at(removed));
         let middle = 0.5 * pk + 0.5 * pr;
+        // Where it may go off the edge, volume is kept.
+        let kept_volume = |p: DVec3| volume_preserving(&self.triangles_of([a, b]), p);
         let places: Vec<DVec3> = match place {
             Place::AtKept => vec![pk],
-            Place::OnRidge => vec![middle, pk, pr],
-            Place::Free => placement::of_collapse(self, edge).into_iter().chain([middle, pk, pr]).collect(),
+            Place::OnLine => vec![middle, pk, pr],
+            Place::OnRidge => vec![kept_volume(middle), middle, pk, pr],
+            Place::Free => {
+                let scheme = placement::of_collapse(self, edge).unwrap_or(middle);
+                vec![kept_volume(scheme), kept_volume(middle), middle, pk, pr]
+            }
         };
         // What is refused last is told.
         let mut reason = Reason::Shape;
@@ -140,6 +146,13 @@ impl Workpiece<'_> {
         self.carry_out(plan, &replacement);
         self.report.collapses += 1;
         Ok(())
+    }
+
+    /// Where the triangles are that have one of two vertices.
+    fn triangles_of(&self, [a, b]: [VertexId; 2]) -> Vec<[DVec3; 3]> {
+        let mesh = self.surface.connectivity();
+        let others = mesh.star(b).filter(|h| ![mesh.head(*h), mesh.apex(*h)].contains(&a));
+        mesh.star(a).chain(others).map(|h| self.places(h.triangle())).collect()
     }
 
     /// Whether the triangles that come are neither turned over, nor too sharp, nor with edges that would be split again.
@@ -215,7 +228,7 @@ impl Workpiece<'_> {
                     [true, true] => None,
                     [true, false] => choice(a, Place::AtKept),
                     [false, true] => choice(b, Place::AtKept),
-                    [false, false] => choice(a, Place::OnRidge),
+                    [false, false] => choice(a, Place::OnLine),
                 };
             }
             [true, false] => return choice(a, Place::AtKept),
@@ -229,7 +242,7 @@ impl Workpiece<'_> {
         match features[0] {
             Feature::Smooth => choice(a, Place::Free),
             Feature::Ridge => choice(a, Place::OnRidge),
-            Feature::Corner => choice(a, Place::OnRidge),
+            Feature::Corner => choice(a, Place::OnLine),
         }
     }
 }
@@ -251,6 +264,7 @@ enum Reason {
 #[derive(Clone, Copy, Debug)]
 enum Place {
     AtKept,
+    OnLine,
     OnRidge,
     Free,
 }

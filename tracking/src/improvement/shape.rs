@@ -30,3 +30,13 @@ pub(crate) fn cosine_at([a, b, c]: [DVec3; 3]) -> f64 {
 pub(crate) fn six_volumes(triangles: &[[DVec3; 3]], tip: DVec3) -> f64 {
     triangles.iter().map(|&[a, b, c]| (a - tip).dot((b - tip).cross(c - tip))).sum()
 }
+
+/// The place nearest to `tip` to which triangles around it may be joined without a change of volume: off along their mean
+/// normal \[Lindstrom98\]. The tip itself where they have none.
+pub(crate) fn volume_preserving(triangles: &[[DVec3; 3]], tip: DVec3) -> DVec3 {
+    // The volume between the triangles and the tip is linear in the tip.
+    let area: DVec3 = triangles.iter().map(|&t| area_vector(t)).sum();
+    let shift = six_volumes(triangles, tip) / area.length_squared();
+    let place = tip + shift * area;
+    if place.is_finite() { place } else { tip }
+}

@@ -1,11 +1,13 @@
 //! Null-space smoothing \[Jiao07\] \[Brochu12, section 3.2.4\].
 //!
 //! Rule: each vertex goes towards the mean of its triangles' centroids, weighted by area, but only in the null space of its
-//! quadric metric tensor: within the surface where that is smooth, along a ridge, not at all at a corner. On a boundary
+//! quadric metric tensor: within the surface where that is smooth, along a ridge, not at all at a corner. Then along its mean
+//! normal, so that it takes no volume from its triangles, nor adds any: without, curved surfaces would shrink. On a boundary
 //! it goes along the boundary, towards the middle between its neighbours; immovable vertices and those where more than two
 //! sheets meet stay. No vertex goes farther than [`REACH`] of its nearest neighbour's distance. All go at once, as
 //! a pseudo-motion, which is made safe as any other motion.
 
+use super::shape::volume_preserving;
 use crate::quadric::VertexQuadric;
 use crate::surface::MovingSurface;
 use glam::DVec3;
@@ -54,7 +56,11 @@ fn place(surface: &MovingSurface, v: VertexId, ridge_threshold: f64) -> DVec3 {
     };
     let length = way.length();
     let most = REACH * nearest;
-    let moved = if length > most { here + (most / length) * way } else { here + way };
+    let mut moved = if length > most { here + (most / length) * way } else { here + way };
+    if ends == [None; 2] && length > 0.0 {
+        let triangles = mesh.star(v).map(|h| mesh.corners(h.triangle()).map(|w| surface.position(w)));
+        moved = volume_preserving(&triangles.collect::<Vec<_>>(), moved);
+    }
     if moved.is_finite() { moved } else { here }
 }
 

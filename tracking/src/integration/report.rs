@@ -31,3 +31,21 @@ pub struct IntegrationReport {
     /// Vertices that stay where they are since nothing else helped.
     pub resting_vertices: usize,
 }
+
+impl IntegrationReport {
+    /// Adds the counts of another resolution; the largest impact zone is that of both.
+    pub fn add(&mut self, other: &Self) {
+        self.proximities += other.proximities;
+        self.repulsions += other.repulsions;
+        self.collisions = self.collisions.zip(other.collisions).map(|(a, b)| a + b);
+        self.sweeps += other.sweeps;
+        self.impulses += other.impulses;
+        self.impact_zones += other.impact_zones;
+        self.largest_impact_zone = self.largest_impact_zone.max(other.largest_impact_zone);
+        self.singular_systems += other.singular_systems;
+        self.rigid_zones += other.rigid_zones;
+        self.resting_zones += other.resting_zones;
+        self.shortenings += other.shortenings;
+        self.resting_vertices += other.resting_vertices;
+    }
+}
