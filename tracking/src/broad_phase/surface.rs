@@ -87,20 +87,27 @@ impl BroadPhase {
         let boxes = Boxes::new(surface, motion)?;
         let mesh = surface.connectivity();
         boxes.check(mesh.vertices())?;
+        self.check_followed(surface)?;
         let Self { vertices, edges, triangles } = self;
+        let refresh_vertices = || vertices.refresh(|v| boxes.vertex(v));
+        let refresh_edges = || edges.refresh(|e| boxes.edge(e));
+        let refresh_triangles = || triangles.refresh(|t| boxes.triangle(t));
+        rayon::join(refresh_vertices, || rayon::join(refresh_edges, refresh_triangles));
+        Ok(())
+    }
+
+    /// Whether the elements of a surface are those that were followed.
+    pub(crate) fn check_followed(&self, surface: &MovingSurface) -> Result<(), BroadPhaseError> {
+        let mesh = surface.connectivity();
         for (elements, followed) in [
-            ("vertices", vertices.holds(mesh.vertex_count(), |v| mesh.has_vertex(VertexId(v)))),
-            ("edges", edges.holds(mesh.edge_count(), |e| mesh.has_edge(EdgeId(e)))),
-            ("triangles", triangles.holds(mesh.triangle_count(), |t| mesh.has_triangle(TriId(t)))),
+            ("vertices", self.vertices.holds(mesh.vertex_count(), |v| mesh.has_vertex(VertexId(v)))),
+            ("edges", self.edges.holds(mesh.edge_count(), |e| mesh.has_edge(EdgeId(e)))),
+            ("triangles", self.triangles.holds(mesh.triangle_count(), |t| mesh.has_triangle(TriId(t)))),
         ] {
             if !followed {
                 return Err(BroadPhaseError::NotFollowed { elements });
             }
         }
-        let refresh_vertices = || vertices.refresh(|v| boxes.vertex(v));
-        let refresh_edges = || edges.refresh(|e| boxes.edge(e));
-        let refresh_triangles = || triangles.refresh(|t| boxes.triangle(t));
-        rayon::join(refresh_vertices, || rayon::join(refresh_edges, refresh_triangles));
         Ok(())
     }
 

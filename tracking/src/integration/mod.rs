@@ -134,10 +134,11 @@ fn integrate(
     parameters: &IntegrationParameters,
     monitor: &Monitor<'_>,
 ) -> Result<Resolved, IntegrationError> {
+    broad_phase.check_ends(surface, &ends)?;
+    broad_phase.check_followed(surface)?;
     if parameters.check_start {
         check::require_embedded(surface, broad_phase, monitor)?;
     }
-    broad_phase.check_ends(surface, &ends)?;
     for (v, end) in ends.iter_mut().enumerate() {
         if !end.is_finite() {
             *end = surface.positions()[v]; // Of an id that is not in use.

@@ -17,6 +17,7 @@
 //! `I` is singular for vertices on a line; the rotation about that line is left out then.
 
 use super::IntegrationError;
+use super::contact::ElementPair;
 use super::least_squares;
 use super::step::Step;
 use super::union::Groups;
@@ -62,32 +63,37 @@ impl Zones {
     /// Adds what collides now; tells the zones that have become others.
     fn take_in(&mut self, step: &mut Step<'_>) -> BTreeSet<VertexId> {
         let mesh = step.surface.connectivity();
-        let mut touched: Vec<VertexId> = Vec::new();
+        let movable = |pair: &ElementPair, step: &Step<'_>| {
+            pair.vertices(mesh).into_iter().find(|&v| step.mobility(v) > 0.0)
+        };
+        // What a former round has made rigid, and collides within itself.
+        let mut changed: Vec<VertexId> = Vec::new();
         for pair in step.colliding().to_vec() {
-            let vertices = pair.vertices(mesh);
-            let Some(first) = vertices.into_iter().find(|&v| step.mobility(v) > 0.0) else { continue };
-            let mut grew = false;
-            for v in vertices {
-                grew |= self.vertices.insert(v);
-                let [a, b] = [self.groups.of(first), self.groups.of(v)];
-                if a != b {
-                    let resting = self.resting[a.index()] || self.resting[b.index()];
-                    self.groups.merge(a, b);
-                    self.resting[a.min(b).index()] = resting;
-                    grew = true;
-                }
-            }
+            let Some(first) = movable(&pair, step) else { continue };
             let zone = self.groups.of(first);
-            if !grew && !self.resting[zone.index()] {
+            let within = pair
+                .vertices(mesh)
+                .into_iter()
+                .all(|v| self.vertices.contains(&v) && self.groups.of(v) == zone);
+            if !within {
+                changed.push(first);
+            } else if !self.resting[zone.index()] {
                 self.resting[zone.index()] = true;
                 step.report.resting_zones += 1;
-                grew = true;
-            }
-            if grew {
-                touched.push(first);
+                changed.push(first);
             }
         }
-        touched.into_iter().map(|v| self.groups.of(v)).collect()
+        for pair in step.colliding().to_vec() {
+            let Some(first) = movable(&pair, step) else { continue };
+            for v in pair.vertices(mesh) {
+                self.vertices.insert(v);
+                let [a, b] = [self.groups.of(first), self.groups.of(v)];
+                let resting = self.resting[a.index()] || self.resting[b.index()];
+                self.groups.merge(a, b);
+                self.resting[a.min(b).index()] = resting;
+            }
+        }
+        changed.into_iter().map(|v| self.groups.of(v)).collect()
     }
 
     fn stiffen(&mut self, step: &mut Step<'_>, before: &[DVec3], changed: &BTreeSet<VertexId>) {
