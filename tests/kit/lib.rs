@@ -9,6 +9,7 @@
 #![forbid(unsafe_code)]
 
 pub mod entropy;
+pub mod evolution;
 pub mod exact;
 pub mod fuzz;
 pub mod generate;

@@ -7,4 +7,6 @@ mod broad_phase;
 mod collision;
 mod improvement;
 mod integration;
+mod flows;
+mod quadric;
 mod surface;
