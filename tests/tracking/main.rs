@@ -5,8 +5,8 @@
 
 mod broad_phase;
 mod collision;
+mod flows;
 mod improvement;
 mod integration;
-mod flows;
 mod quadric;
 mod surface;

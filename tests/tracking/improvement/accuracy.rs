@@ -28,8 +28,8 @@ fn refined(length: f64, split_scheme: SplitScheme) -> f64 {
 fn subdivision_keeps_spheres_round() {
     for (scheme, order, largest) in [
         (SplitScheme::Midpoint, 1.5, 1.0),
-        (SplitScheme::Butterfly, 1.5, 0.45),
-        (SplitScheme::ModifiedButterfly, 1.5, 0.45),
+        (SplitScheme::Butterfly, 1.5, 0.65),
+        (SplitScheme::ModifiedButterfly, 1.5, 0.65),
         (SplitScheme::Quadric, 1.5, 1.0),
     ] {
         let errors = [0.3, 0.15, 0.075].map(|length| refined(length, scheme));

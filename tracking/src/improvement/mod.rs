@@ -81,6 +81,7 @@ impl Stage<'_> {
             length: self.length,
             sizing,
             least_agreement: libm::cos(self.parameters.max_normal_turn.to_radians()),
+            crease_cosine: libm::cos(self.parameters.crease_angle.to_radians()),
             report: ImprovementReport::default(),
         };
         work(&mut piece);

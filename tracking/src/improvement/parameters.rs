@@ -68,9 +68,12 @@ pub struct ImprovementParameters {
     /// Whether vertices are moved along the surface.
     pub smoothing: bool,
     /// An eigenvalue of the quadric metric tensor, over the largest, above which the surface is not flat in that
-    /// direction: a ridge has two such, a corner three. Default: 0.2, which two planes have whose normals differ by 48
-    /// degrees: rims of sheets that are thinner than an edge count as curved, not as sharp, and are refined as such.
+    /// direction, where edges collapse and vertices are smoothed: a ridge has two such, a corner three. Default: 0.03, which two
+    /// planes of equal weight have whose normals differ by 20 degrees.
     pub ridge_threshold: f64,
+    /// Edges whose triangles' normals differ by more, in degrees, are split in the middle, and stencils do not reach across
+    /// them. Default: 48: the rim of a sheet thinner than an edge is curved rather than sharp, the edge of a box is sharp.
+    pub crease_angle: f64,
     /// Shorter edges where the surface is curved; none by default.
     pub curvature: Option<CurvatureAdaption>,
     /// No edge is split once there are as many triangles. Default: 8 million, some gigabytes.
@@ -97,7 +100,8 @@ impl Default for ImprovementParameters {
             max_normal_turn: 45.0,
             split_scheme: SplitScheme::default(),
             smoothing: true,
-            ridge_threshold: 0.2,
+            ridge_threshold: 0.03,
+            crease_angle: 48.0,
             curvature: None,
             most_triangles: 8_000_000,
             split: true,
@@ -174,6 +178,8 @@ impl ImprovementParameters {
         require((0.0..=180.0).contains(&turn), "max_normal_turn", turn, "from 0 to 180 degrees")?;
         let ridge = self.ridge_threshold;
         require((0.0..=1.0).contains(&ridge), "ridge_threshold", ridge, "from 0 to 1")?;
+        let crease = self.crease_angle;
+        require((0.0..=180.0).contains(&crease), "crease_angle", crease, "from 0 to 180 degrees")?;
         let Some(CurvatureAdaption { edge_over_radius, scale: [low, high], grading }) = self.curvature else {
             return Ok(());
         };

@@ -9,8 +9,8 @@
 //!
 //! On a boundary the four-point scheme along it: `(9 (p1 + p2) - (o1 + o2)) / 16`.
 //!
-//! On ridges and corners none of these applies: they would round them off. There the middle is taken; and where a stencil reaches
-//! beyond a ridge, the point there is replaced by the one of a flat continuation.
+//! On creases none of these applies: they would round them off. There the middle is taken; and where a stencil reaches beyond
+//! a crease, the point there is replaced by the one of a flat continuation.
 
 use super::SplitScheme;
 use super::shape::area_vector;
@@ -46,11 +46,10 @@ pub(crate) fn of_split(piece: &Workpiece<'_>, edge: EdgeId) -> Option<DVec3> {
     }
     let mesh = piece.surface.connectivity();
     let ends = mesh.ends(edge);
-    let smooth = |&v: &VertexId| Feature::of(piece, v) == Feature::Smooth;
     let Some(sides) = piece.two_sides(edge) else {
         return if mesh.is_boundary(edge) { four_point(piece, edge) } else { None };
     };
-    if !ends.iter().all(smooth) {
+    if is_crease(piece, sides) {
         return None;
     }
     match piece.parameters.split_scheme {
@@ -73,16 +72,19 @@ pub(crate) fn of_collapse(piece: &Workpiece<'_>, edge: EdgeId) -> Option<DVec3> 
     .filter(|place| place.is_finite())
 }
 
-/// The apex of the triangle beyond a half-edge, if there is just one. Beyond a ridge there is another patch, which says nothing of
+/// Whether the triangles of two half-edges differ in their normals by more than the crease angle.
+fn is_crease(piece: &Workpiece<'_>, sides: [HalfEdge; 2]) -> bool {
+    let [n, m] = sides.map(|h| area_vector(piece.places(h.triangle())).normalize_or_zero());
+    n.dot(m) < piece.crease_cosine
+}
+
+/// The apex of the triangle beyond a half-edge, if there is just one. Beyond a crease there is another patch, which says nothing of
 /// this one: there, it is where it would be on a flat regular triangulation.
 fn beyond(piece: &Workpiece<'_>, h: HalfEdge) -> Option<DVec3> {
     let mesh = piece.surface.connectivity();
     let [s, t] = piece.two_sides(mesh.edge(h))?;
     let other = if s == h { t } else { s };
-    let [n, m] = [h, other].map(|h| area_vector(piece.places(h.triangle())).normalize_or_zero());
-    // Two planes whose normals differ by the angle a have eigenvalues in the ratio tan^2 (a / 2).
-    let threshold = piece.parameters.ridge_threshold;
-    if n.dot(m) < (1.0 - threshold) / (1.0 + threshold) {
+    if is_crease(piece, [h, other]) {
         return Some(piece.at(mesh.tail(h)) + piece.at(mesh.head(h)) - piece.at(mesh.apex(h)));
     }
     Some(piece.at(mesh.apex(other)))
@@ -107,8 +109,11 @@ fn modified_butterfly(piece: &Workpiece<'_>, sides: [HalfEdge; 2]) -> Option<DVe
     let irregular: Vec<HalfEdge> = [h, o].into_iter().filter(|&h| valence(mesh.tail(h)) != 6).collect();
     match irregular[..] {
         [] => butterfly(piece, sides),
-        [one] => around(piece, one),
-        _ => Some(0.5 * around(piece, h)? + 0.5 * around(piece, o)?),
+        [one] => around(piece, one).or_else(|| butterfly(piece, sides)),
+        _ => match (around(piece, h), around(piece, o)) {
+            (Some(p), Some(q)) => Some(0.5 * p + 0.5 * q),
+            (p, q) => p.or(q).or_else(|| butterfly(piece, sides)),
+        },
     }
 }
 
@@ -123,6 +128,9 @@ fn around(piece: &Workpiece<'_>, h: HalfEdge) -> Option<DVec3> {
         neighbours.push(piece.at(mesh.head(at)));
         let back = at.previous();
         let [s, t] = piece.two_sides(mesh.edge(back))?;
+        if is_crease(piece, [s, t]) {
+            return None;
+        }
         at = if s == back { t } else { s };
     }
     if at != h {

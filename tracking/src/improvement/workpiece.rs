@@ -21,6 +21,8 @@ pub(crate) struct Workpiece<'a> {
     pub(crate) sizing: Sizing,
     /// Cosine of the largest turn of a normal.
     pub(crate) least_agreement: f64,
+    /// Cosine of the crease angle.
+    pub(crate) crease_cosine: f64,
     pub(crate) report: ImprovementReport,
 }
 
