@@ -6,7 +6,8 @@
 mod broad_phase;
 mod collision;
 mod flows;
-mod improvement;
+pub(crate) mod improvement;
 mod integration;
 mod quadric;
 mod surface;
+mod tracker;
