@@ -80,7 +80,7 @@ fn an_impulse_takes_the_approach_away_and_nothing_else() {
 fn zones_resolve_together_what_impulses_pass_on() {
     // Sheets one upon another: an impulse between two is a collision of the next two.
     let mut random = Random::new(41);
-    let mut body = Body::new(&stack(4, 3, 3.0, 0.02));
+    let mut body = Body::new(&stack(6, 4, 4.0, 0.02));
     let ends: Vec<DVec3> =
         body.surface.positions().iter().map(|&p| p - DVec3::Z * 3.0 * p.z + 0.01 * random.point()).collect();
     let one_sweep = body.clone().step(ends.clone(), &IntegrationParameters { sweeps: 1, ..none() });
@@ -89,7 +89,7 @@ fn zones_resolve_together_what_impulses_pass_on() {
     let resolved = body.step(ends, &zones);
     println!("{:?}", resolved.report);
     assert!(
-        resolved.report.impact_zones > 0 && resolved.report.largest_impact_zone > 20,
+        resolved.report.impact_zones > 0 && resolved.report.largest_impact_zone > 1000,
         "{:?}",
         resolved.report
     );

@@ -7,30 +7,37 @@
 //!
 //! # What it promises
 //! * The sum of masses times displacements is kept to rounding where no vertex is immovable; kinetic energy does not grow.
-//! * A singular system is found out by its rank. It is solved in the least squares sense all the same where its collisions
-//!   can be stopped together; a zone whose collisions cannot, or are too many, keeps the ends that it had, and is left
+//! * A singular system is found out: by its rank, a large one by iterations that do not converge. It is solved in the least squares
+//!   sense all the same where its collisions can be stopped together; a zone whose collisions cannot, or are too many, keeps the ends that it had, and is left
 //!   to rigid motions.
 //! * It ends after the rounds that the parameters allow; a pair joins its zone at most that many times.
 //!
 //! # Method
 //! \[Harmon08\], as in \[Brochu12, section 3.2.7\]: to minimise `|u' - u|_M` with `C u' = 0`, where row `i` of `C` holds
 //! the signed weights of collision `i` times its normal, solve `C M^-1 C^T l = C u`, then `u' = u - M^-1 C^T l`
-//! (`least_squares`). As the projection onto the solutions of more rows is the projection of that onto fewer, each round starts from the
-//! ends before all zones. Dense: n^3 / 6 operations for n collisions of a zone, whose number is bounded.
+//! (`least_squares`; for many collisions `conjugate_gradients`). As the projection onto the solutions of more rows is the projection of that onto fewer, each round starts from the
+//! ends before all zones. Complexity: for n collisions of a zone, whose number is bounded, n^3 / 6 operations up to [`DENSE`],
+//! then some 50 n for each iteration, of which there are a few hundred.
 
 use super::IntegrationError;
 use super::contact::Contact;
-use super::least_squares;
 use super::step::Step;
 use super::union::Groups;
+use super::{conjugate_gradients, least_squares};
 use glam::DVec3;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use welter_meshing::surface::VertexId;
 
-/// The part of its largest approach that a zone may have left after it was solved: 2^-20; what a singular system leaves that
+/// The part of its largest approach that a zone may have left after it was solved: 2^-12; what a singular system leaves that
 /// cannot be solved is of the order of 1.
-const UNSOLVED: f64 = 1.0 / (1 << 20) as f64;
+const UNSOLVED: f64 = 1.0 / (1 << 12) as f64;
+
+/// How often what is left of the approaches is solved for again, at most.
+const REPETITIONS: usize = 8;
+
+/// Up to so many collisions a zone's system is factorised: that takes a millisecond, and tells the rank.
+const DENSE: usize = 128;
 
 /// Stops all collisions of zones at once, and again, until nothing collides or the rounds are used up.
 pub(super) fn solve(step: &mut Step<'_>) -> Result<(), IntegrationError> {
@@ -42,10 +49,14 @@ pub(super) fn solve(step: &mut Step<'_>) -> Result<(), IntegrationError> {
     };
     for _ in 0..step.parameters.zone_rounds {
         step.detect()?;
-        if step.is_crowded() || !zones.take_in(step) {
+        if step.is_crowded() {
             break;
         }
-        zones.solve(step, &before);
+        let changed = zones.take_in(step);
+        if changed.is_empty() {
+            break;
+        }
+        zones.solve(step, &before, &changed);
     }
     step.detect()
 }
@@ -58,44 +69,42 @@ struct Zones {
 }
 
 impl Zones {
-    /// Adds what collides now. False if that changes nothing.
-    fn take_in(&mut self, step: &Step<'_>) -> bool {
+    /// Adds what collides now; tells the zones that have become others and are not given up.
+    fn take_in(&mut self, step: &Step<'_>) -> BTreeSet<VertexId> {
         let contacts: Vec<Contact> =
             step.colliding().par_iter().filter_map(|&pair| step.impact(pair)).collect();
-        let mut news = false;
+        let mut touched = Vec::new();
         for contact in contacts {
             let mut movable = contact.vertices.into_iter().filter(|&v| step.mobility(v) > 0.0);
             let Some(first) = movable.next() else { continue };
-            let mut given_up = self.given_up[self.groups.of(first).index()];
+            let mut given_up =
+                self.given_up[self.groups.of(first).index()] || step.yielding(&contact).is_none();
             for v in movable {
                 given_up |= self.given_up[self.groups.of(v).index()];
                 self.groups.merge(first, v);
             }
-            if step.yielding(&contact).is_none() {
-                given_up = true;
-            }
             self.given_up[self.groups.of(first).index()] = given_up;
-            news |= !given_up;
             self.contacts.push(contact);
+            touched.push(first);
         }
-        news
+        let zones = touched.into_iter().map(|v| self.groups.of(v));
+        zones.filter(|zone| !self.given_up[zone.index()]).collect()
     }
 
-    /// The collisions of each zone, in the order in which they came.
-    fn by_zone(&mut self, step: &Step<'_>) -> Vec<(VertexId, Vec<Contact>)> {
+    /// The collisions of some zones, in the order in which they came.
+    fn by_zone(&mut self, step: &Step<'_>, of: &BTreeSet<VertexId>) -> Vec<(VertexId, Vec<Contact>)> {
         let mut zones: BTreeMap<VertexId, Vec<Contact>> = BTreeMap::new();
         for contact in &self.contacts {
-            if let Some(&v) = contact.vertices.iter().find(|&&v| step.mobility(v) > 0.0) {
-                zones.entry(self.groups.of(v)).or_default().push(*contact);
+            let movable = contact.vertices.iter().find(|&&v| step.mobility(v) > 0.0);
+            if let Some(zone) = movable.map(|&v| self.groups.of(v)).filter(|zone| of.contains(zone)) {
+                zones.entry(zone).or_default().push(*contact);
             }
         }
         zones.into_iter().collect()
     }
 
-    fn solve(&mut self, step: &mut Step<'_>, before: &[DVec3]) {
-        let zones: Vec<(VertexId, Vec<Contact>)> = self.by_zone(step);
-        let zones: Vec<(VertexId, Vec<Contact>)> =
-            zones.into_iter().filter(|(zone, _)| !self.given_up[zone.index()]).collect();
+    fn solve(&mut self, step: &mut Step<'_>, before: &[DVec3], changed: &BTreeSet<VertexId>) {
+        let zones = self.by_zone(step, changed);
         let view: &Step<'_> = step;
         let solved: Vec<Zone> =
             zones.par_iter().map(|(_, contacts)| Zone::new(view, before, contacts)).collect();
@@ -130,47 +139,98 @@ impl Zone {
         if contacts.len() > step.parameters.most_zone_collisions as usize {
             return Self { singular: false, ends: None };
         }
-        let displacement = |v: VertexId| before[v.index()] - step.surface.position(v);
-        let approach: Vec<f64> =
-            contacts.iter().map(|c| c.normal.dot(c.weighted(c.vertices.map(displacement)))).collect();
-        let least_squares::Solution { x: impulses, rank } =
-            least_squares::solve(&system(step, contacts), &approach);
-        let mut changes: BTreeMap<VertexId, DVec3> = BTreeMap::new();
-        for (contact, impulse) in contacts.iter().zip(&impulses) {
-            for (&v, weight) in contact.vertices.iter().zip(contact.weights) {
-                let mobility = step.mobility(v);
-                if mobility > 0.0 {
-                    *changes.entry(v).or_default() -= (weight * mobility * impulse) * contact.normal;
+        let mut ends: BTreeMap<VertexId, DVec3> = BTreeMap::new();
+        for v in contacts.iter().flat_map(|contact| contact.vertices) {
+            ends.insert(v, before[v.index()]);
+        }
+        let system = System::new(step, contacts);
+        let (mut largest, mut singular) = (None, false);
+        for _ in 0..=REPETITIONS {
+            let displacement = |v: VertexId| ends[&v] - step.surface.position(v);
+            let approach: Vec<f64> =
+                contacts.iter().map(|c| c.normal.dot(c.weighted(c.vertices.map(displacement)))).collect();
+            let most = approach.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+            if most <= UNSOLVED * *largest.get_or_insert(most) {
+                return Self { singular, ends: Some(ends.into_iter().collect()) };
+            }
+            let Some(impulses) = system.solve(&approach, &mut singular) else { break };
+            for (contact, impulse) in contacts.iter().zip(&impulses) {
+                for (&v, weight) in contact.vertices.iter().zip(contact.weights) {
+                    if let Some(end) = ends.get_mut(&v).filter(|_| step.mobility(v) > 0.0) {
+                        *end -= (weight * step.mobility(v) * impulse) * contact.normal;
+                    }
                 }
             }
         }
-        let after = |v: VertexId| displacement(v) + changes.get(&v).copied().unwrap_or_default();
-        let left = contacts.iter().map(|c| c.normal.dot(c.weighted(c.vertices.map(after))).abs());
-        let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-        let stopped = most(&mut { left }) <= UNSOLVED * most(&mut approach.iter().map(|a| a.abs()));
-        let ends = changes.iter().map(|(&v, &change)| (v, before[v.index()] + change)).collect();
-        Self { singular: rank < contacts.len(), ends: stopped.then_some(ends) }
+        Self { singular: true, ends: None }
     }
 }
 
-/// The lower triangle of `C M^-1 C^T`.
-fn system(step: &Step<'_>, contacts: &[Contact]) -> Vec<Vec<f64>> {
-    let mut at: BTreeMap<VertexId, Vec<(usize, f64)>> = BTreeMap::new();
-    let mut rows = Vec::with_capacity(contacts.len());
-    for (i, contact) in contacts.iter().enumerate() {
-        let mut row = vec![0.0; i + 1];
-        for (&v, weight) in contact.vertices.iter().zip(contact.weights) {
-            let mobility = step.mobility(v);
-            if mobility == 0.0 {
-                continue;
+/// The system of a zone.
+struct System<'a> {
+    contacts: &'a [Contact],
+    /// The vertices of each collision by number, and the mobility of each number.
+    numbers: Vec<[usize; 4]>,
+    mobility: Vec<f64>,
+    /// The lower triangle of `C M^-1 C^T`, if there are few collisions.
+    rows: Option<Vec<Vec<f64>>>,
+}
+
+impl<'a> System<'a> {
+    fn new(step: &Step<'_>, contacts: &'a [Contact]) -> Self {
+        let mut vertices: Vec<VertexId> = contacts.iter().flat_map(|c| c.vertices).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let number = |v: VertexId| vertices.binary_search(&v).expect("all of them are listed");
+        let numbers: Vec<[usize; 4]> = contacts.iter().map(|c| c.vertices.map(number)).collect();
+        let mobility: Vec<f64> = vertices.iter().map(|&v| step.mobility(v)).collect();
+        let mut system = Self { contacts, numbers, mobility, rows: None };
+        system.rows = (contacts.len() <= DENSE).then(|| system.lower_triangle());
+        system
+    }
+
+    fn lower_triangle(&self) -> Vec<Vec<f64>> {
+        let mut at: Vec<Vec<(usize, f64)>> = vec![Vec::new(); self.mobility.len()];
+        let mut rows = Vec::with_capacity(self.contacts.len());
+        for (i, (contact, numbers)) in self.contacts.iter().zip(&self.numbers).enumerate() {
+            let mut row = vec![0.0; i + 1];
+            for (&v, weight) in numbers.iter().zip(contact.weights) {
+                at[v].push((i, weight));
+                for &(j, other) in &at[v] {
+                    row[j] +=
+                        (weight * other * self.mobility[v]) * contact.normal.dot(self.contacts[j].normal);
+                }
             }
-            let others = at.entry(v).or_default();
-            others.push((i, weight));
-            for &(j, other) in others.iter() {
-                row[j] += (weight * other * mobility) * contact.normal.dot(contacts[j].normal);
+            rows.push(row);
+        }
+        rows
+    }
+
+    /// The impulses that take approaches away, as far as they are found; tells whether the system is singular.
+    fn solve(&self, approach: &[f64], singular: &mut bool) -> Option<Vec<f64>> {
+        if let Some(rows) = &self.rows {
+            let solution = least_squares::solve(rows, approach);
+            *singular |= solution.rank < approach.len();
+            return Some(solution.x);
+        }
+        let diagonal = |(c, numbers): (&Contact, &[usize; 4])| {
+            (0..4).map(|k| c.weights[k] * c.weights[k] * self.mobility[numbers[k]]).sum()
+        };
+        let diagonal: Vec<f64> = self.contacts.iter().zip(&self.numbers).map(diagonal).collect();
+        conjugate_gradients::solve(&diagonal, approach, |x, product| self.times(x, product))
+    }
+
+    /// `C M^-1 C^T x`.
+    fn times(&self, x: &[f64], product: &mut [f64]) {
+        let mut moved = vec![DVec3::ZERO; self.mobility.len()];
+        for ((c, numbers), x) in self.contacts.iter().zip(&self.numbers).zip(x) {
+            for k in 0..4 {
+                moved[numbers[k]] += (c.weights[k] * x) * c.normal;
             }
         }
-        rows.push(row);
+        moved.iter_mut().zip(&self.mobility).for_each(|(m, mobility)| *m *= *mobility);
+        for ((c, numbers), product) in self.contacts.iter().zip(&self.numbers).zip(product) {
+            *product = c.normal.dot(c.weighted(numbers.map(|i| moved[i])));
+        }
     }
-    rows
 }

@@ -9,10 +9,10 @@
 //! largest diagonal that is left is below [`DEPENDENT`] of the row's own. Rows are first scaled to a diagonal of 1,
 //! so the criterion is the squared sine of the angle between a row and those before it. Complexity: n r^2 for rank r.
 
-/// Squared sine of the angle to the rows before below which a row counts as dependent on them: 2^-32. Normals
-/// and weights of contacts are known to some 2^-40, so a row that differs by an angle of 2^-16 from
-/// a combination of others has a right side that is known relative to that difference to 2^-24.
-const DEPENDENT: f64 = 1.0 / (1u64 << 32) as f64;
+/// Squared sine of the angle to the rows before below which a row counts as dependent on them: 2^-24. Normals and
+/// weights of contacts are known to some 2^-40, so what is left of a row above an angle of 2^-12 is still known to 2^-28; what is
+/// below would be fulfilled only by motions thousands of times as large.
+const DEPENDENT: f64 = 1.0 / (1 << 24) as f64;
 
 /// What came of a system.
 #[derive(Clone, Debug, PartialEq)]

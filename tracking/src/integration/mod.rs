@@ -27,7 +27,7 @@
 //!
 //! 1. elements nearer than a distance repel each other (`proximity`);
 //! 2. single impulses, a few sweeps (`impulses`), with friction (`friction`);
-//! 3. impact zones, solved at once (`impact_zones`, `least_squares`);
+//! 3. impact zones, solved at once (`impact_zones`, `least_squares`, `conjugate_gradients`);
 //! 4. rigid zones (`rigid_zones`);
 //! 5. all of this with half the step, and again; at last what collides stays where it is (`shorter_steps`).
 //!
@@ -36,6 +36,7 @@
 //! further sweep costs as the vertices that it changed.
 
 mod check;
+mod conjugate_gradients;
 mod contact;
 mod error;
 mod friction;

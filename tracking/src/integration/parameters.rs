@@ -21,8 +21,8 @@ pub struct IntegrationParameters {
     /// Rounds in which impact zones are solved and may grow. Default: 12: in fuzz tests zones that ended did so within half
     /// as many rounds.
     pub zone_rounds: u32,
-    /// The most collisions that one impact zone solves for; a larger one moves rigidly. Default: 512, a dense system that
-    /// takes some ten milliseconds.
+    /// The most collisions that one impact zone solves for; a larger one moves rigidly. Default: 8192, at most some
+    /// hundred milliseconds.
     pub most_zone_collisions: u32,
     /// Rounds in which rigid zones may grow. Default: 12, as `zone_rounds`.
     pub rigid_rounds: u32,
@@ -43,7 +43,7 @@ impl Default for IntegrationParameters {
             friction: 0.0,
             sweeps: 3,
             zone_rounds: 12,
-            most_zone_collisions: 512,
+            most_zone_collisions: 8192,
             rigid_rounds: 12,
             most_halvings: 3,
             most_collisions_per_vertex: 64,
