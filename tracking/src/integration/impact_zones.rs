@@ -7,7 +7,7 @@
 //!
 //! # What it promises
 //! * The sum of masses times displacements is kept to rounding where no vertex is immovable; kinetic energy does not grow.
-//! * A singular system is found out: by its rank, a large one by iterations that do not converge. It is solved in the least squares
+//! * A singular system is found out: by its rank, a large one by what iterations leave. It is solved in the least squares
 //!   sense all the same where its collisions can be stopped together; a zone whose collisions cannot, or are too many, keeps the ends that it had, and is left
 //!   to rigid motions.
 //! * It ends after the rounds that the parameters allow; a pair joins its zone at most that many times.
@@ -15,12 +15,12 @@
 //! # Method
 //! \[Harmon08\], as in \[Brochu12, section 3.2.7\]: to minimise `|u' - u|_M` with `C u' = 0`, where row `i` of `C` holds
 //! the signed weights of collision `i` times its normal, solve `C M^-1 C^T l = C u`, then `u' = u - M^-1 C^T l`
-//! (`least_squares`; for many collisions `conjugate_gradients`). As the projection onto the solutions of more rows is the projection of that onto fewer, each round starts from the
-//! ends before all zones. Complexity: for n collisions of a zone, whose number is bounded, n^3 / 6 operations up to [`DENSE`],
+//! (`least_squares`; for many collisions `conjugate_gradients`). A round starts from the ends of the one before: that is the same, since the
+//! projection onto the solutions of more rows is that of the projection onto the solutions of fewer. Complexity: for n collisions of a zone, whose number is bounded, n^3 / 6 operations up to [`DENSE`],
 //! then some 50 n for each iteration, of which there are a few hundred.
 
 use super::IntegrationError;
-use super::contact::Contact;
+use super::contact::{Contact, ElementPair};
 use super::step::Step;
 use super::union::Groups;
 use super::{conjugate_gradients, least_squares};
@@ -29,23 +29,34 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use welter_meshing::surface::VertexId;
 
-/// The part of its largest approach that a zone may have left after it was solved: 2^-12; what a singular system leaves that
-/// cannot be solved is of the order of 1.
-const UNSOLVED: f64 = 1.0 / (1 << 12) as f64;
+/// A zone whose largest approach is down to this part of itself has nothing left that counts: 2^-12.
+const SOLVED: f64 = 1.0 / (1 << 12) as f64;
 
-/// How often what is left of the approaches is solved for again, at most.
-const REPETITIONS: usize = 8;
+/// Of a zone that is not solved further, at most this part may be left: an eighth. If it still collides, the next round takes as
+/// much off that again. What a singular system leaves that cannot be solved is of the order of 1.
+const PROGRESS: f64 = 0.125;
 
-/// Up to so many collisions a zone's system is factorised: that takes a millisecond, and tells the rank.
-const DENSE: usize = 128;
+/// How often what is left of the approaches is solved for, at most.
+const REPETITIONS: usize = 2;
+
+/// Up to so many collisions a zone's system is factorised: that takes some ten milliseconds, about as long as iterations would,
+/// and tells the rank.
+const DENSE: usize = 384;
+
+/// Contacts of a pair whose normals differ by less than the angle with this versine (a degree) are one constraint.
+const ALIKE: f64 = 1.0 / (1 << 13) as f64;
+
+/// The same for their weights.
+const ALIKE_WEIGHTS: f64 = 1.0 / 64.0;
 
 /// Stops all collisions of zones at once, and again, until nothing collides or the rounds are used up.
 pub(super) fn solve(step: &mut Step<'_>) -> Result<(), IntegrationError> {
-    let before = step.ends().to_vec();
+    let vertices = step.ends().len();
     let mut zones = Zones {
-        groups: Groups::new(before.len()),
+        groups: Groups::new(vertices),
         contacts: Vec::new(),
-        given_up: vec![false; before.len()],
+        of_pair: BTreeMap::new(),
+        given_up: vec![false; vertices],
     };
     for _ in 0..step.parameters.zone_rounds {
         step.detect()?;
@@ -56,7 +67,7 @@ pub(super) fn solve(step: &mut Step<'_>) -> Result<(), IntegrationError> {
         if changed.is_empty() {
             break;
         }
-        zones.solve(step, &before, &changed);
+        zones.solve(step, &changed);
     }
     step.detect()
 }
@@ -64,6 +75,8 @@ pub(super) fn solve(step: &mut Step<'_>) -> Result<(), IntegrationError> {
 struct Zones {
     groups: Groups,
     contacts: Vec<Contact>,
+    /// Which of them a pair has.
+    of_pair: BTreeMap<ElementPair, Vec<usize>>,
     /// By the smallest vertex of a zone: whether it is left to rigid motions.
     given_up: Vec<bool>,
 }
@@ -71,10 +84,10 @@ struct Zones {
 impl Zones {
     /// Adds what collides now; tells the zones that have become others and are not given up.
     fn take_in(&mut self, step: &Step<'_>) -> BTreeSet<VertexId> {
-        let contacts: Vec<Contact> =
-            step.colliding().par_iter().filter_map(|&pair| step.impact(pair)).collect();
+        let impact = |&pair: &ElementPair| Some((pair, step.impact(pair)?));
+        let contacts: Vec<(ElementPair, Contact)> = step.colliding().par_iter().filter_map(impact).collect();
         let mut touched = Vec::new();
-        for contact in contacts {
+        for (pair, contact) in contacts {
             let mut movable = contact.vertices.into_iter().filter(|&v| step.mobility(v) > 0.0);
             let Some(first) = movable.next() else { continue };
             let mut given_up =
@@ -84,7 +97,11 @@ impl Zones {
                 self.groups.merge(first, v);
             }
             self.given_up[self.groups.of(first).index()] = given_up;
-            self.contacts.push(contact);
+            let known = self.of_pair.entry(pair).or_default();
+            if !known.iter().any(|&i| alike(&self.contacts[i], &contact)) {
+                known.push(self.contacts.len());
+                self.contacts.push(contact);
+            }
             touched.push(first);
         }
         let zones = touched.into_iter().map(|v| self.groups.of(v));
@@ -103,11 +120,10 @@ impl Zones {
         zones.into_iter().collect()
     }
 
-    fn solve(&mut self, step: &mut Step<'_>, before: &[DVec3], changed: &BTreeSet<VertexId>) {
+    fn solve(&mut self, step: &mut Step<'_>, changed: &BTreeSet<VertexId>) {
         let zones = self.by_zone(step, changed);
         let view: &Step<'_> = step;
-        let solved: Vec<Zone> =
-            zones.par_iter().map(|(_, contacts)| Zone::new(view, before, contacts)).collect();
+        let solved: Vec<Zone> = zones.par_iter().map(|(_, contacts)| Zone::new(view, contacts)).collect();
         for ((zone, contacts), solved) in zones.iter().zip(solved) {
             step.report.largest_impact_zone = step.report.largest_impact_zone.max(contacts.len());
             step.report.singular_systems += usize::from(solved.singular);
@@ -116,15 +132,16 @@ impl Zones {
                     step.report.impact_zones += 1;
                     ends.into_iter().for_each(|(v, end)| step.set_end(v, end));
                 }
-                None => {
-                    self.given_up[zone.index()] = true;
-                    for v in contacts.iter().flat_map(|contact| contact.vertices) {
-                        step.set_end(v, before[v.index()]);
-                    }
-                }
+                None => self.given_up[zone.index()] = true,
             }
         }
     }
+}
+
+/// Whether two contacts of a pair say the same.
+fn alike(a: &Contact, b: &Contact) -> bool {
+    let weights = a.weights.iter().zip(&b.weights);
+    1.0 - a.normal.dot(b.normal) < ALIKE && weights.into_iter().all(|(a, b)| (a - b).abs() < ALIKE_WEIGHTS)
 }
 
 /// What came of a zone.
@@ -135,25 +152,25 @@ struct Zone {
 }
 
 impl Zone {
-    fn new(step: &Step<'_>, before: &[DVec3], contacts: &[Contact]) -> Self {
+    fn new(step: &Step<'_>, contacts: &[Contact]) -> Self {
         if contacts.len() > step.parameters.most_zone_collisions as usize {
             return Self { singular: false, ends: None };
         }
         let mut ends: BTreeMap<VertexId, DVec3> = BTreeMap::new();
         for v in contacts.iter().flat_map(|contact| contact.vertices) {
-            ends.insert(v, before[v.index()]);
+            ends.insert(v, step.ends()[v.index()]);
         }
         let system = System::new(step, contacts);
-        let (mut largest, mut singular) = (None, false);
-        for _ in 0..=REPETITIONS {
+        let (mut first, mut left, mut singular) = (None, f64::INFINITY, false);
+        for repetition in 0..=REPETITIONS {
             let displacement = |v: VertexId| ends[&v] - step.surface.position(v);
             let approach: Vec<f64> =
                 contacts.iter().map(|c| c.normal.dot(c.weighted(c.vertices.map(displacement)))).collect();
-            let most = approach.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-            if most <= UNSOLVED * *largest.get_or_insert(most) {
-                return Self { singular, ends: Some(ends.into_iter().collect()) };
+            left = approach.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+            if left <= SOLVED * *first.get_or_insert(left) || repetition == REPETITIONS {
+                break;
             }
-            let Some(impulses) = system.solve(&approach, &mut singular) else { break };
+            let impulses = system.solve(&approach, &mut singular);
             for (contact, impulse) in contacts.iter().zip(&impulses) {
                 for (&v, weight) in contact.vertices.iter().zip(contact.weights) {
                     if let Some(end) = ends.get_mut(&v).filter(|_| step.mobility(v) > 0.0) {
@@ -162,7 +179,8 @@ impl Zone {
                 }
             }
         }
-        Self { singular: true, ends: None }
+        let stopped = left <= PROGRESS * first.unwrap_or(0.0);
+        Self { singular: singular || !stopped, ends: stopped.then(|| ends.into_iter().collect()) }
     }
 }
 
@@ -207,11 +225,11 @@ impl<'a> System<'a> {
     }
 
     /// The impulses that take approaches away, as far as they are found; tells whether the system is singular.
-    fn solve(&self, approach: &[f64], singular: &mut bool) -> Option<Vec<f64>> {
+    fn solve(&self, approach: &[f64], singular: &mut bool) -> Vec<f64> {
         if let Some(rows) = &self.rows {
             let solution = least_squares::solve(rows, approach);
             *singular |= solution.rank < approach.len();
-            return Some(solution.x);
+            return solution.x;
         }
         let diagonal = |(c, numbers): (&Contact, &[usize; 4])| {
             (0..4).map(|k| c.weights[k] * c.weights[k] * self.mobility[numbers[k]]).sum()
