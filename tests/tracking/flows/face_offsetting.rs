@@ -234,6 +234,27 @@ fn split_long(surface: &mut MovingSurface, longest: f64) {
     }
 }
 
+/// The other way the groove stays sharp, and its bottom is where the offset spheres meet.
+#[test]
+fn a_groove_stays_sharp_when_it_advances() {
+    let balls = TwoBalls::default();
+    let edges = [0.06, 0.03, 0.015];
+    let found = edges.map(|edge_length| {
+        let mut surface = grown_together(balls, 0.1, edge_length);
+        let steps = run(&mut surface, &FaceOffsetting::new(0.2), [0.0, 0.05], 0.0125);
+        assert_eq!(steps, 4);
+        let bottom = (0.31_f64 * 0.31 - 0.25 * 0.25).sqrt();
+        let mesh = surface.to_mesh();
+        let at_bottom = mesh.positions().iter().filter(|p| p.x.abs() < 1e-3 * edge_length);
+        let off = at_bottom.map(|p| (p.y.hypot(p.z) - bottom).abs()).fold(0.0, f64::max);
+        let all = errors(&mesh, two_balls(balls, 0.11, 0.0));
+        println!("groove that advances, edges {edge_length}: bottom off by {off:.2e}, {all:?}");
+        off.max(all.linf)
+    });
+    let order = order(&edges, &found);
+    assert!(order > 0.9 && found[2] < 0.02 * edges[2], "{order}: {found:?}");
+}
+
 /// The second half of the example of \[Brochu12, section 3.3.1\]: the groove between two balls becomes round, and does not part
 /// them. Long edges are split in the middle as it opens, and nothing else is improved, so the test ends before it must be.
 ///

@@ -110,6 +110,7 @@ fn steps_are_stable() {
         surface.set_position(v, surface.position(v) + 0.02 * random.point()).unwrap();
     }
     let mut last = area(&surface.to_mesh());
+    let mut farthest = f64::INFINITY;
     let mut limits = Vec::new();
     for _ in 0..60 {
         let prediction = MeanCurvature::default().advance(&surface, 0.0, 1.0).unwrap();
@@ -117,6 +118,9 @@ fn steps_are_stable() {
         let now = area(&surface.to_mesh());
         assert!(now < last, "the area falls in every step: {last}, {now}");
         last = now;
+        let reach = surface.positions().iter().map(|p| p.length()).fold(0.0, f64::max);
+        assert!(reach < farthest, "vertices stay within those around them: {farthest}, {reach}");
+        farthest = reach;
         limits.push(prediction.dt);
     }
     println!("limits {:.3e} to {:.3e}", limits[0], limits[59]);

@@ -29,6 +29,40 @@ pub struct VertexQuadric {
     mean: DVec3,
 }
 
+/// Up to this length, and from its reciprocal on, what is computed from edges is in the range of normal numbers and
+/// so has the bits that it has in any other unit. What underflows even so is beyond the last bit of what it is added to.
+const ORDINARY: f64 = (1_u128 << 100) as f64;
+
+/// Sums over the triangles at a vertex.
+struct Sums {
+    /// Of the normals, by twice the area.
+    normals: DVec3,
+    /// Of the squares of the unit normals, by twice the area.
+    matrix: SymmetricMatrix,
+    /// The largest component of an edge out of the vertex.
+    longest: f64,
+}
+
+impl Sums {
+    /// Over triangles given by their two edges out of the vertex.
+    #[inline]
+    fn over(triangles: impl Iterator<Item = [DVec3; 2]>) -> Self {
+        let mut sums = Self { normals: DVec3::ZERO, matrix: SymmetricMatrix::ZERO, longest: 0.0 };
+        let mut longest = DVec3::ZERO;
+        for [one, other] in triangles {
+            longest = longest.max(one.abs()).max(other.abs());
+            let doubled = one.cross(other);
+            let area = doubled.length();
+            if area > 0.0 {
+                sums.normals += doubled;
+                sums.matrix.add_square(doubled, area.recip());
+            }
+        }
+        sums.longest = longest.max_element();
+        sums
+    }
+}
+
 impl VertexQuadric {
     /// The quadric of a vertex: that of a vertex without triangles, or with such of no area only, has rank 0.
     ///
@@ -37,20 +71,15 @@ impl VertexQuadric {
     #[must_use]
     pub fn new(surface: &MovingSurface, vertex: VertexId) -> Self {
         let mesh = surface.connectivity();
-        let scale = Scale::of_star(surface, vertex);
         let center = surface.position(vertex);
-        let (mut sum, mut matrix) = (DVec3::ZERO, SymmetricMatrix::ZERO);
-        for half_edge in mesh.star(vertex) {
-            let one = scale.difference(surface.position(mesh.head(half_edge)), center);
-            let other = scale.difference(surface.position(mesh.apex(half_edge)), center);
-            let doubled = one.cross(other);
-            let area = doubled.length();
-            if area > 0.0 {
-                sum += doubled;
-                matrix.add_square(doubled, area.recip());
-            }
+        let edges = || mesh.star(vertex).map(|h| [mesh.head(h), mesh.apex(h)].map(|v| surface.position(v)));
+        let whole = Sums::over(edges().map(|ends| ends.map(|end| end - center)));
+        if whole.longest >= ORDINARY.recip() && whole.longest <= ORDINARY {
+            return Self::of_sums(whole.normals, whole.matrix);
         }
-        Self::of_sums(sum, matrix)
+        let scale = Scale::of_star(surface, vertex);
+        let scaled = Sums::over(edges().map(|ends| ends.map(|end| scale.difference(end, center))));
+        Self::of_sums(scaled.normals, scaled.matrix)
     }
 
     /// From the sums of `area normal` and `area normal normal^T`, in any unit.

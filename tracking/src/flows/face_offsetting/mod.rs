@@ -43,7 +43,7 @@
 //!   move with an error of order two in the edge length.
 //!
 //! # What it does not promise
-//! Convergence where improvement turns triangles over, or cuts ridges off: collapses and flips that turn
+//! Motion of triangles that are smaller than the surface by a factor of 2^250. Convergence where improvement turns triangles over, or cuts ridges off: collapses and flips that turn
 //! normals much must be refused \[Brochu12, section 3.3.1\].
 //!
 //! # Complexity
@@ -100,7 +100,8 @@ pub struct FaceOffsettingParameters {
     pub rank_threshold: f64,
     /// The part of its area, projected onto its plane, that every triangle keeps in a step at least; from 0, below 1. Default: 0.1.
     pub area_kept: f64,
-    /// A step is not shortened below this part of what was asked for; from 0 (never hold vertices back) to 1.
+    /// A step is not shortened below this part of what was asked for, from 0 to 1. With 0 vertices are held back only
+    /// where a speed changes so fast with time that eight steps, each at the limit of the one before, were too long.
     /// Default: 1/64.
     pub least_fraction: f64,
 }
@@ -184,12 +185,13 @@ impl<S: NormalSpeed> FaceOffsetting<S> {
         let scale = Scale::of_surface(surface);
         let limit = StepLimit { surface, scale: &scale, area_kept: self.parameters.area_kept };
         let shortest = self.parameters.least_fraction * dt;
-        let (mut taken, mut limiting) = (dt, None);
-        for tries in 1.. {
+        let (mut taken, mut limiting, mut tries) = (dt, None, 0);
+        loop {
+            tries += 1;
             if taken <= 0.0 || time + taken == time {
                 return Err(FlowError::NoProgress { time, dt, limit: taken });
             }
-            let mut motion = self.displacements(surface, time, taken)?;
+            let mut motion = self.displacements(surface, &scale, time, taken)?;
             let (fraction, triangle) = limit.first(&motion);
             let fits = fraction >= 1.0 - LIMIT_ROUNDING;
             if fits || taken <= shortest || tries == MAX_TRIES {
@@ -200,11 +202,16 @@ impl<S: NormalSpeed> FaceOffsetting<S> {
             limiting = triangle;
             taken = (taken * fraction).max(shortest);
         }
-        unreachable!("the last try returns")
     }
 
     /// How far each vertex goes in a step, if nothing limits it. Zero for those that do not move.
-    fn displacements(&self, surface: &MovingSurface, time: f64, dt: f64) -> Result<Vec<DVec3>, FlowError> {
+    fn displacements(
+        &self,
+        surface: &MovingSurface,
+        scale: &Scale,
+        time: f64,
+        dt: f64,
+    ) -> Result<Vec<DVec3>, FlowError> {
         let mut speeds = self.speeds(surface, time + 0.5 * dt)?;
         let unit = Scale::of_length(speeds.iter().fold(0.0, |largest: f64, s| largest.max(s.abs())), 1.0);
         speeds.iter_mut().for_each(|speed| *speed = unit.scaled(*speed));
@@ -214,7 +221,7 @@ impl<S: NormalSpeed> FaceOffsetting<S> {
             if rests(surface, vertex) {
                 return Ok(DVec3::ZERO);
             }
-            let offset = VertexOffset::new(surface, &speeds, vertex, threshold);
+            let offset = VertexOffset::new(surface, scale, &speeds, vertex, threshold);
             let velocity = if self.front == Front::Entropy { offset.with_entropy() } else { offset.sharp() };
             let displacement = dt * unit.restored(velocity);
             let start = surface.position(vertex);

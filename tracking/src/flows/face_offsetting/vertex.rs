@@ -13,7 +13,7 @@ pub(super) struct VertexOffset<'s> {
     surface: &'s MovingSurface,
     speeds: &'s [f64],
     vertex: VertexId,
-    scale: Scale,
+    scale: &'s Scale,
     /// The displacement in a unit of time that follows the planes best.
     velocity: DVec3,
 }
@@ -22,11 +22,11 @@ impl<'s> VertexOffset<'s> {
     /// Solves for the displacement of a vertex in a unit of time; speeds are by triangle id.
     pub(super) fn new(
         surface: &'s MovingSurface,
+        scale: &'s Scale,
         speeds: &'s [f64],
         vertex: VertexId,
         threshold: f64,
     ) -> Self {
-        let scale = Scale::of_star(surface, vertex);
         let mut offset = Self { surface, speeds, vertex, scale, velocity: DVec3::ZERO };
         let (mut normals, mut matrix, mut moved) = (DVec3::ZERO, SymmetricMatrix::ZERO, DVec3::ZERO);
         for (one, other, speed) in offset.sectors() {
