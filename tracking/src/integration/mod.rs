@@ -39,6 +39,7 @@ mod check;
 mod conjugate_gradients;
 mod contact;
 mod error;
+mod free;
 mod friction;
 mod impact_zones;
 mod impulses;
@@ -53,6 +54,7 @@ mod union;
 
 pub use contact::ElementPair;
 pub use error::{IntegrationError, Tangle};
+pub(crate) use free::is_free;
 pub use parameters::IntegrationParameters;
 pub use report::IntegrationReport;
 
@@ -207,11 +209,27 @@ pub fn accept(
         let _ = broad_phase.refresh(surface, Motion::Rest);
         return Err(error);
     }
+    place(surface, ends);
+    Ok(())
+}
+
+/// Moves the surface to ends that can be reached without a collision, as [`resolve`] and [`is_free`] find them, without the static
+/// check: for positions that are none that a step ends with. The broad phase is at rest then.
+pub(crate) fn pass_through(
+    surface: &mut MovingSurface,
+    broad_phase: &mut BroadPhase,
+    ends: &[DVec3],
+) -> Result<(), IntegrationError> {
+    broad_phase.refresh(surface, Motion::At(ends))?;
+    place(surface, ends);
+    Ok(())
+}
+
+fn place(surface: &mut MovingSurface, ends: &[DVec3]) {
     let vertices: Vec<_> = surface.connectivity().vertices().collect();
     for v in vertices {
         surface
             .set_position(v, ends[v.index()])
             .expect("the broad phase has refused ends that are not finite");
     }
-    Ok(())
 }

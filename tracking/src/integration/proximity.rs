@@ -75,6 +75,21 @@ impl Proximities {
     }
 }
 
+/// Whether the elements of a pair are within a distance at rest.
+pub(super) fn is_near(
+    pair: ElementPair,
+    surface: &MovingSurface,
+    reference_length: f64,
+    distance: f64,
+) -> bool {
+    if distance == 0.0 {
+        return false;
+    }
+    let (mesh, unit) = (surface.connectivity(), reciprocal_power(reference_length));
+    let places = pair.vertices(mesh).map(|v| surface.position(v));
+    !clearly_apart(pair, places, unit, distance * unit) && Proximity::of(pair, surface, distance).is_some()
+}
+
 impl Proximity {
     /// The proximity of a pair, if its elements are within the distance.
     fn of(pair: ElementPair, surface: &MovingSurface, distance: f64) -> Option<Self> {

@@ -15,6 +15,9 @@
 //!   [`SurfaceTracker::resume`].
 //!
 //! # What it does not promise
+//! That the flow is asked only where the surface is: it is asked where smoothing would put the vertices, and once more if they
+//! are not free to go there.
+//!
 //! That the surface follows the flow where it would meet itself: collisions change the motion, and with topology switched
 //! on changes of topology do.
 //!
@@ -165,15 +168,12 @@ impl SurfaceTracker {
         monitor: &Monitor<'_>,
     ) -> Result<StepReport, TrackerError> {
         self.whole_or_not(|tracker, done| {
-            tracker.static_operations(done, monitor)?;
-            let clock = Instant::now();
-            let Prediction { ends, dt: reached } = flow.advance(&tracker.surface, tracker.time, dt)?;
-            if !(reached > 0.0 && reached <= dt) {
-                return Err(TrackerError::Step { dt: reached, asked: dt });
-            }
-            done.seconds.velocity += clock.elapsed().as_secs_f64();
-            let fraction = tracker.integrate(ends, done, monitor)?;
-            done.dt = if fraction == 1.0 { reached } else { fraction * reached };
+            tracker.change_connectivity(done, monitor)?;
+            let smoothed = tracker.smoothed(done);
+            done.dt = match tracker.step_undisturbed(smoothed.as_ref(), flow, dt, done, monitor)? {
+                Some(reached) => reached,
+                None => tracker.step_with_collisions(smoothed, flow, dt, done, monitor)?,
+            };
             tracker.time += done.dt;
             tracker.steps += 1;
             Ok(())
@@ -185,7 +185,14 @@ impl SurfaceTracker {
     /// # Errors
     /// As [`SurfaceTracker::step`].
     pub fn improve(&mut self, monitor: &Monitor<'_>) -> Result<StepReport, TrackerError> {
-        self.whole_or_not(|tracker, done| tracker.static_operations(done, monitor))
+        self.whole_or_not(|tracker, done| {
+            tracker.change_connectivity(done, monitor)?;
+            if let Some(ends) = tracker.smoothed(done) {
+                tracker.smooth(ends, done, monitor)?;
+            }
+            let places = tracker.surface.positions().to_vec();
+            tracker.accept(&places, done, monitor)
+        })
     }
 
     /// Integration alone \[Brochu12, Algorithm 2\]: moves the surface towards positions by vertex id, as far as it can go. The
@@ -219,7 +226,75 @@ impl SurfaceTracker {
         Ok(StepReport { dt, improvement, integration, log, seconds })
     }
 
-    fn static_operations(&mut self, done: &mut Done, monitor: &Monitor<'_>) -> Result<(), TrackerError> {
+    /// Smoothing and the flow as one motion, if nothing is near or in the way: then that is as if one came after
+    /// the other. The time that the step takes; none, with the surface as it was, if something was in the way.
+    fn step_undisturbed(
+        &mut self,
+        smoothed: Option<&Vec<DVec3>>,
+        flow: &dyn Flow,
+        dt: f64,
+        done: &mut Done,
+        monitor: &Monitor<'_>,
+    ) -> Result<Option<f64>, TrackerError> {
+        let before = smoothed.map(|ends| self.exchange(ends));
+        let predicted = self.predict(flow, dt, done);
+        if let Some(before) = &before {
+            self.exchange(before);
+        }
+        // Where smoothing was not undisturbed, the flow may be asked where the surface never is.
+        let Ok(Prediction { ends, dt: reached }) = predicted else { return Ok(None) };
+        let clock = Instant::now();
+        let (surface, broad_phase) = (&self.surface, &mut self.broad_phase);
+        let parameters = &self.parameters.integration;
+        let free = integration::is_free(surface, broad_phase, &ends, self.length, parameters, monitor)?;
+        if !free {
+            self.broad_phase.refresh(&self.surface, Motion::Rest)?;
+        }
+        done.seconds.collisions += clock.elapsed().as_secs_f64();
+        if free {
+            self.accept(&ends, done, monitor)?;
+        }
+        Ok(free.then_some(reached))
+    }
+
+    /// Smoothing, then the flow, each with its collisions resolved.
+    fn step_with_collisions(
+        &mut self,
+        smoothed: Option<Vec<DVec3>>,
+        flow: &dyn Flow,
+        dt: f64,
+        done: &mut Done,
+        monitor: &Monitor<'_>,
+    ) -> Result<f64, TrackerError> {
+        if let Some(ends) = smoothed {
+            self.smooth(ends, done, monitor)?;
+        }
+        let Prediction { ends, dt: reached } = self.predict(flow, dt, done)?;
+        let fraction = self.integrate(ends, done, monitor)?;
+        Ok(if fraction == 1.0 { reached } else { fraction * reached })
+    }
+
+    /// Where the flow goes, checked.
+    fn predict(&self, flow: &dyn Flow, dt: f64, done: &mut Done) -> Result<Prediction, TrackerError> {
+        let clock = Instant::now();
+        let prediction = flow.advance(&self.surface, self.time, dt)?;
+        done.seconds.velocity += clock.elapsed().as_secs_f64();
+        if !(prediction.dt > 0.0 && prediction.dt <= dt) {
+            return Err(TrackerError::Step { dt: prediction.dt, asked: dt });
+        }
+        Ok(prediction)
+    }
+
+    /// Puts the vertices elsewhere, unasked; where they were.
+    fn exchange(&mut self, places: &[DVec3]) -> Vec<DVec3> {
+        let before = self.surface.positions().to_vec();
+        for (v, &place) in (0..).map(VertexId).zip(places) {
+            self.surface.set_position(v, place).expect("smoothing gives finite places");
+        }
+        before
+    }
+
+    fn change_connectivity(&mut self, done: &mut Done, monitor: &Monitor<'_>) -> Result<(), TrackerError> {
         self.since_built += 1;
         if self.since_built >= LIFE_OF_TREES {
             // What it answers does not depend on how it was built.
@@ -230,7 +305,6 @@ impl SurfaceTracker {
         }
         self.remesh(done)?;
         monitor.check()?;
-        self.smooth(done, monitor)?;
         self.change_topology(done)?;
         monitor.check()?;
         Ok(())
@@ -255,18 +329,34 @@ impl SurfaceTracker {
         Ok(())
     }
 
-    fn smooth(&mut self, done: &mut Done, monitor: &Monitor<'_>) -> Result<(), TrackerError> {
-        if !self.parameters.improvement.smoothing {
-            return Ok(());
-        }
+    /// Where smoothing would put the vertices, if it is switched on.
+    fn smoothed(&self, done: &mut Done) -> Option<Vec<DVec3>> {
+        let improvement = &self.parameters.improvement;
         let clock = Instant::now();
-        let ends = improvement::smoothed(&self.surface, self.parameters.improvement.ridge_threshold);
-        let before = done.seconds;
-        self.integrate(ends, done, monitor)?;
-        done.improvement.smoothed += self.surface.connectivity().vertex_count() as u64;
-        let check = done.seconds.check - before.check;
-        done.seconds.collisions = before.collisions;
-        done.seconds.improvement += clock.elapsed().as_secs_f64() - check;
+        let ends = improvement
+            .smoothing
+            .then(|| improvement::smoothed(&self.surface, improvement.ridge_threshold))?;
+        let moved = ends.iter().zip(self.surface.positions()).filter(|(end, start)| end != start);
+        done.improvement.smoothed += moved.count() as u64;
+        done.seconds.improvement += clock.elapsed().as_secs_f64();
+        Some(ends)
+    }
+
+    /// Smoothing as a pseudo-motion, with its collisions resolved; without repulsion, for nothing comes nearer by it.
+    fn smooth(
+        &mut self,
+        ends: Vec<DVec3>,
+        done: &mut Done,
+        monitor: &Monitor<'_>,
+    ) -> Result<(), TrackerError> {
+        let clock = Instant::now();
+        let parameters =
+            IntegrationParameters { check_start: false, proximity_rel: 0.0, ..self.parameters.integration };
+        let (surface, broad_phase) = (&self.surface, &mut self.broad_phase);
+        let resolved = integration::resolve(surface, broad_phase, ends, self.length, &parameters, monitor)?;
+        done.integration.add(&resolved.report);
+        integration::pass_through(&mut self.surface, &mut self.broad_phase, &resolved.ends)?;
+        done.seconds.improvement += clock.elapsed().as_secs_f64();
         Ok(())
     }
 
@@ -310,10 +400,15 @@ impl SurfaceTracker {
         let resolved = integration::resolve(surface, broad_phase, ends, self.length, &parameters, monitor)?;
         done.integration.add(&resolved.report);
         done.seconds.collisions += clock.elapsed().as_secs_f64();
-        let clock = Instant::now();
-        integration::accept(&mut self.surface, &mut self.broad_phase, &resolved.ends, monitor)?;
-        done.seconds.check += clock.elapsed().as_secs_f64();
+        self.accept(&resolved.ends, done, monitor)?;
         Ok(resolved.fraction)
+    }
+
+    fn accept(&mut self, ends: &[DVec3], done: &mut Done, monitor: &Monitor<'_>) -> Result<(), TrackerError> {
+        let clock = Instant::now();
+        integration::accept(&mut self.surface, &mut self.broad_phase, ends, monitor)?;
+        done.seconds.check += clock.elapsed().as_secs_f64();
+        Ok(())
     }
 }
 
