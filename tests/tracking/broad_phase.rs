@@ -3,4 +3,5 @@
 mod changes;
 mod hostile;
 mod laws;
+mod pairs;
 mod twin;

@@ -39,6 +39,10 @@ pub fn ends(surface: &MovingSurface, random: &mut Random, distance: f64) -> Vec<
                 .map(|i| positions[i].lerp(positions[(i + 1 + some as usize) % n], distance.min(1.0)))
                 .collect()
         }
-        _ => positions.iter().map(|&p| p.lerp(centre, distance.min(1.0))).collect(),
+        _ => {
+            // All the way only now and then: exact arithmetic decides all pairs then.
+            let part = distance.min(if some == 1 { 1.0 } else { 0.98 });
+            positions.iter().map(|&p| p.lerp(centre, part)).collect()
+        }
     }
 }

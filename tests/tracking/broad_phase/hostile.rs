@@ -71,7 +71,7 @@ fn hard_surfaces_agree_with_all_pairs() {
             let mut broad_phase = BroadPhase::new(&surface, Motion::Rest).unwrap();
             for by in [0.0, 0.01 * size, size, 30.0 * size] {
                 let ends = ends(&surface, &mut random, by);
-                for motion in [Motion::To(&ends), Motion::Rest] {
+                for motion in [Motion::To(&ends), Motion::At(&ends), Motion::Rest] {
                     broad_phase.refresh(&surface, motion).unwrap();
                     let distance = [0.0, 0.01 * size, size][random.below(3) as usize];
                     let lists = Lists::of(&broad_phase, &surface, distance);

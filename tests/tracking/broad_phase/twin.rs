@@ -67,8 +67,10 @@ impl Lists {
 /// The least and the largest coordinate of vertices along a motion.
 pub(super) fn range(surface: &MovingSurface, motion: Motion<'_>, of: &[VertexId], axis: usize) -> (f64, f64) {
     let mut all: Vec<f64> = of.iter().map(|&v| surface.position(v)[axis]).collect();
-    if let Motion::To(ends) = motion {
-        all.extend(of.iter().map(|v| ends[v.index()][axis]));
+    match motion {
+        Motion::To(ends) => all.extend(of.iter().map(|v| ends[v.index()][axis])),
+        Motion::At(places) => all = of.iter().map(|v| places[v.index()][axis]).collect(),
+        Motion::Rest => {}
     }
     all.sort_by(f64::total_cmp);
     (all[0], all[all.len() - 1])

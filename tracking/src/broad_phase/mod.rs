@@ -3,7 +3,8 @@
 //! # What it computes
 //! [`BroadPhase`] holds a box for each element, at rest or swept along a step ([`Motion`]), and lists the pairs of
 //! elements whose boxes are within a distance: vertices with triangles and edges with edges (proximity, collision), edges
-//! with triangles (intersection); those near one element; or those near any box, such as that of a motion that a
+//! with triangles and triangles with each other (intersection), also only those that pass a test, which is then made
+//! within the parallel search; those near one element; or those near any box, such as that of a motion that a
 //! change of the mesh would amount to \[Brochu12, sections 3.2.2 to 3.2.7\].
 //!
 //! # What it promises

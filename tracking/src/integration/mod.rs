@@ -174,7 +174,7 @@ fn integrate(
                 rigid_zones::stiffen(&mut step)?;
             }
         }
-        if step.collides() && !step.is_crowded() && halvings < parameters.most_halvings {
+        if step.collides() && halvings < parameters.most_halvings {
             halvings += 1;
             fraction *= 0.5;
             step.report.shortenings += 1;

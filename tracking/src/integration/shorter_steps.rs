@@ -30,7 +30,8 @@ pub(super) fn shortened(surface: &MovingSurface, ends: &[DVec3], fraction: f64) 
     surface.positions().iter().zip(ends).map(part).collect()
 }
 
-/// The largest power of two, not above a given one, with which no vertex goes farther than some reference lengths along an axis.
+/// The largest power of two, not above a given one, with which no vertex goes farther than some reference lengths along an axis;
+/// the given one for a length of 0.
 pub(super) fn fraction_of_a_few_lengths(
     surface: &MovingSurface,
     ends: &[DVec3],
@@ -39,6 +40,9 @@ pub(super) fn fraction_of_a_few_lengths(
 ) -> f64 {
     let half_way = |v: VertexId| (0.5 * ends[v.index()] - 0.5 * surface.position(v)).abs().max_element();
     let farthest = surface.connectivity().vertices().map(half_way).fold(0.0, f64::max);
+    if length == 0.0 {
+        return fraction;
+    }
     let exponent = |x: f64| libm::frexp(x).1;
     let halvings = exponent(farthest) + 1 - exponent(length) - FEW_LENGTHS;
     fraction.min(libm::scalbn(1.0, -halvings.clamp(0, 1000)))
