@@ -1,7 +1,7 @@
 //! Operations on surfaces small enough to be drawn.
 
 use glam::DVec3;
-use welter_kit::surface::{closed_surfaces, non_manifold_surfaces};
+use welter_kit::surface::{Replay, closed_surfaces, non_manifold_surfaces};
 use welter_meshing::surface::{TriId, TriMesh, TriangleSoup, VertexId};
 use welter_tracking::surface::{EventKind, HalfEdge, MovingSurface, Refusal, Rule};
 
@@ -49,6 +49,49 @@ fn a_ring_of_three_edges_is_told_before_it_collapses() {
     prisms.apply(plan);
     assert_eq!(prisms.connectivity().edge_triangles(edge(&prisms, 0, 2)), 4);
     assert_eq!(prisms.check(), Ok(()));
+}
+
+/// A bipyramid is cut at its waist: two tetrahedra, whose log and attributes follow.
+#[test]
+fn a_ring_of_three_edges_is_cut_into_two_closed_surfaces() {
+    let mut both = bipyramid();
+    let amounts = (0..5).map(|i| f64::from(1 << i)).collect();
+    let amount = both.vertex_attributes_mut().add("amount", amounts, Rule::Conserve).unwrap();
+    let before = Replay::of(both.connectivity());
+    let ring = [0, 1, 2].map(VertexId);
+    let plan = both.plan_cut(ring).unwrap();
+    let EventKind::Cut { ring: told, copies } = plan.kind() else { panic!("{:?}", plan.kind()) };
+    assert_eq!(told, ring);
+    // Triangles run along the ring in this order above: that part gets the copies.
+    assert!(plan.changed().iter().all(|(_, corners)| corners.contains(&VertexId(4))));
+    assert_eq!((plan.changed().len(), plan.added().len(), plan.removed().len()), (3, 2, 0));
+    both.apply(plan);
+    assert_eq!(both.check(), Ok(()));
+    let mesh = both.connectivity();
+    assert_eq!((mesh.vertex_count(), mesh.edge_count(), mesh.triangle_count()), (8, 12, 8));
+    assert!(mesh.edges().all(|e| mesh.edge_triangles(e) == 2));
+    assert!(
+        copies
+            .iter()
+            .all(|&v| mesh.vertex_triangles(v) == 3
+                && both.position(v) == both.position(ring[v.0 as usize - 5]))
+    );
+    let values = both.vertex_attributes().values(amount);
+    assert_eq!(mesh.vertices().map(|v| values[v.index()]).sum::<f64>(), 31.0);
+    let mut replay = before;
+    both.log().iter().for_each(|event| replay.apply(&event));
+    assert_eq!(replay, Replay::of(mesh));
+}
+
+#[test]
+fn what_is_no_ring_is_not_cut() {
+    let both = bipyramid();
+    // The sides of a triangle leave nothing on one side; 3 and 4 have no edge; twice the same vertex is none.
+    for ring in [[0, 1, 4], [1, 0, 4], [0, 3, 4], [0, 0, 1]] {
+        let refused = both.plan_cut(ring.map(VertexId));
+        assert!(matches!(refused, Err(Refusal::Corners { .. })), "{ring:?}: {refused:?}");
+    }
+    assert!(matches!(both.plan_cut([0, 1, 9].map(VertexId)), Err(Refusal::NotInUse { .. })));
 }
 
 #[test]
