@@ -33,7 +33,7 @@ pub fn sheet(cells: u32, width: f64) -> TriMesh {
     let id = |x: u32, y: u32| y * (cells + 1) + x;
     let cell = |x: u32, y: u32| {
         let [a, b, c, d] = [id(x, y), id(x + 1, y), id(x + 1, y + 1), id(x, y + 1)];
-        if (x + y) % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+        if (x + y).is_multiple_of(2) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
     };
     let triangles = (0..cells).flat_map(|y| (0..cells).flat_map(move |x| cell(x, y))).collect();
     TriMesh::new(TriangleSoup { positions, triangles, ..TriangleSoup::default() }).expect("a sheet")

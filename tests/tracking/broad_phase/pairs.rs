@@ -36,24 +36,25 @@ fn each_pair_is_asked_about_once_and_those_that_pass_are_listed() {
             let asked = Mutex::new(Vec::new());
             let passed = broad_phase.vertex_triangle_pairs_that(mesh, distance, |v, t| {
                 asked.lock().unwrap().push((v, t));
-                (v.0 + t.0) % 3 == 0
+                (v.0 + t.0).is_multiple_of(3)
             });
             let mut asked = asked.into_inner().unwrap();
             asked.sort_unstable();
             assert_eq!(asked, lists.vertex_triangle);
-            let expected = lists.vertex_triangle.iter().copied().filter(|(v, t)| (v.0 + t.0) % 3 == 0);
+            let expected =
+                lists.vertex_triangle.iter().copied().filter(|(v, t)| (v.0 + t.0).is_multiple_of(3));
             assert_eq!(passed.unwrap(), expected.collect::<Vec<_>>());
             asked_of_all += asked.len();
 
             let asked = Mutex::new(Vec::new());
             let passed = broad_phase.edge_edge_pairs_that(mesh, distance, |a, b| {
                 asked.lock().unwrap().push([a.min(b), a.max(b)]);
-                (a.0 + b.0) % 3 == 0
+                (a.0 + b.0).is_multiple_of(3)
             });
             let mut asked = asked.into_inner().unwrap();
             asked.sort_unstable();
             assert_eq!(asked, lists.edge_edge);
-            let expected = lists.edge_edge.iter().copied().filter(|[a, b]| (a.0 + b.0) % 3 == 0);
+            let expected = lists.edge_edge.iter().copied().filter(|[a, b]| (a.0 + b.0).is_multiple_of(3));
             assert_eq!(passed.unwrap(), expected.collect::<Vec<_>>());
             asked_of_all += asked.len();
         }

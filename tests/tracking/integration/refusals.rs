@@ -182,10 +182,9 @@ fn ends_at_the_limits_of_the_range_do_no_harm() {
         body.broad_phase.refresh(&body.surface, Motion::Rest).unwrap();
         body.length = size;
         for far in [f64::MAX, f64::MIN_POSITIVE, 1e160] {
-            let ends = p
-                .iter()
-                .enumerate()
-                .map(|(i, &p)| if i % 2 == 0 { DVec3::splat(far) * DVec3::new(1.0, -1.0, 0.5) } else { -p });
+            let ends = p.iter().enumerate().map(|(i, &p)| {
+                if i.is_multiple_of(2) { DVec3::splat(far) * DVec3::new(1.0, -1.0, 0.5) } else { -p }
+            });
             let resolved = body.step(ends.collect(), &IntegrationParameters::default());
             assert!(body.is_embedded() && resolved.fraction > 0.0, "{size:e} {far:e}");
         }
