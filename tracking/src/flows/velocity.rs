@@ -36,11 +36,11 @@ pub enum Scheme {
 /// ```
 /// use glam::DVec3;
 /// use welter_meshing::shapes::{Sphere, sphere};
-/// use welter_tracking::flows::{Advection, Flow, Scheme};
+/// use welter_tracking::flows::{Advection, Flow};
 /// use welter_tracking::surface::MovingSurface;
 ///
 /// let surface = MovingSurface::new(&*sphere(&Sphere { edge_length: 0.5, ..Sphere::default() })?)?;
-/// let flow = Advection { field: |p: DVec3, t: f64| t * p, scheme: Scheme::Rk4 };
+/// let flow = Advection::new(|p: DVec3, t: f64| t * p);
 /// let prediction = flow.advance(&surface, 0.0, 0.2)?;
 /// // Positions grow by e to the integral of t.
 /// let ratio = prediction.ends[0].length() / surface.positions()[0].length();
@@ -56,6 +56,11 @@ pub struct Advection<F> {
 }
 
 impl<F: VelocityField> Advection<F> {
+    /// The flow of a field by the method of Runge and Kutta.
+    pub fn new(field: F) -> Self {
+        Self { field, scheme: Scheme::Rk4 }
+    }
+
     fn velocity(&self, vertex: VertexId, position: DVec3, time: f64) -> Result<DVec3, FlowError> {
         let velocity = self.field.velocity(position, time);
         if velocity.is_finite() {

@@ -33,7 +33,8 @@
 //! # What it promises
 //! * The step is stable in the sense above; with Euler's method every vertex ends in the convex hull of its neighbours and
 //!   itself, unless angles opposite to its edges sum to more than 180 degrees.
-//! * Planes do not move, up to roundings.
+//! * Vertices with flat surroundings do not move, up to roundings: one ring of triangles with Euler's method, four with
+//!   that of Runge and Kutta.
 //! * Vertices on a boundary stay: the surface spans its boundary like a soap film.
 //!
 //! # What it does not promise
