@@ -40,9 +40,6 @@ mod smoothing;
 mod split;
 mod workpiece;
 
-#[cfg(test)]
-mod tests;
-
 pub use parameters::{
     CurvatureAdaption, ImprovementParameters, ParameterError, SplitScheme, TopologyParameters,
 };

@@ -36,11 +36,12 @@ impl ElementPair {
         }
     }
 
-    /// Whether the elements touch on the way from some places of their vertices to others: exact.
-    pub(super) fn collides(&self, from: [DVec3; 4], to: [DVec3; 4]) -> bool {
+    /// Whether the elements touch on the way from some places of their vertices to others: exact; and the stage that
+    /// told.
+    pub(super) fn collides(&self, from: [DVec3; 4], to: [DVec3; 4]) -> (bool, ccd::Stage) {
         match self {
-            Self::VertexTriangle(..) => ccd::vertex_face(from, to),
-            Self::EdgeEdge(..) => ccd::edge_edge(from, to),
+            Self::VertexTriangle(..) => ccd::staged::vertex_face(from, to),
+            Self::EdgeEdge(..) => ccd::staged::edge_edge(from, to),
         }
     }
 

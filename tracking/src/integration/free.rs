@@ -35,7 +35,7 @@ pub(crate) fn is_free(
         }
         let vertices = pair.vertices(mesh);
         let [from, to] = [vertices.map(|v| surface.position(v)), vertices.map(|v| ends[v.index()])];
-        let found = is_near(pair, surface, length, distance) || (from != to && pair.collides(from, to));
+        let found = is_near(pair, surface, length, distance) || (from != to && pair.collides(from, to).0);
         if found {
             disturbed.store(true, Ordering::Relaxed);
         }

@@ -4,7 +4,8 @@
 //! # What it promises
 //! * After [`Step::detect`], [`Step::colliding`] holds exactly the pairs of elements without a common vertex that touch
 //!   on the straight ways from the surface to the current ends, sorted; but for pairs that do not move at all, which an
-//!   embedded surface keeps apart. Or the step is crowded: there are more of them than the limit.
+//!   embedded surface keeps apart. Or the step is crowded: there are more of them than the limit, or of pairs that take
+//!   exact integers to tell, which are slow.
 //! * Only pairs with a vertex whose end has changed since are asked about again.
 //! * Nothing depends on the number of threads: detection collects and sorts, changes are made in order.
 //!
@@ -21,6 +22,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use welter_meshing::Monitor;
 use welter_meshing::surface::{EdgeId, TriId, VertexId};
+use welter_predicates::ccd;
 
 /// A vertex changed with its star costs the broad phase some dozen times as much as in a refreshment of all, and
 /// asking around it more than in a descent of all.
@@ -188,9 +190,9 @@ impl<'a> Step<'a> {
         self.monitor.check()?;
         let changed = &self.changed;
         self.colliding.retain(|pair| !pair.vertices(mesh).iter().any(|v| changed[v.index()]));
-        self.colliding.extend(found);
+        self.colliding.extend(found.pairs);
         self.colliding.sort_unstable();
-        self.crowded = self.colliding.len() > limit;
+        self.crowded = found.too_many || self.colliding.len() > limit;
         if self.crowded {
             self.colliding.clear();
         }
@@ -217,22 +219,30 @@ impl<'a> Step<'a> {
             return false;
         }
         let [from, to] = self.places(vertices);
-        from != to && !counter.is_full() && pair.collides(from, to) && counter.count()
+        if from == to || counter.is_full() {
+            return false;
+        }
+        let (touches, stage) = pair.collides(from, to);
+        if touches || stage == ccd::Stage::Exact {
+            counter.count();
+        }
+        touches
     }
 
     /// By descents of all; of the changes, if there was a detection before.
-    fn found_everywhere(&self, limit: usize) -> Result<Vec<ElementPair>, IntegrationError> {
+    fn found_everywhere(&self, limit: usize) -> Result<Found, IntegrationError> {
         let (mesh, counter) = (self.surface.connectivity(), Counter::new(limit, self.monitor));
         let vertex_triangle = |v, t| self.touches(ElementPair::VertexTriangle(v, t), &counter);
         let edge_edge = |a, b| self.touches(ElementPair::edges(a, b), &counter);
         let vertex_triangle = self.broad_phase.vertex_triangle_pairs_that(mesh, 0.0, vertex_triangle)?;
         let edge_edge = self.broad_phase.edge_edge_pairs_that(mesh, 0.0, edge_edge)?;
         let vertex_triangle = vertex_triangle.into_iter().map(|(v, t)| ElementPair::VertexTriangle(v, t));
-        Ok(vertex_triangle.chain(edge_edge.into_iter().map(|[a, b]| ElementPair::EdgeEdge(a, b))).collect())
+        let edge_edge = edge_edge.into_iter().map(|[a, b]| ElementPair::EdgeEdge(a, b));
+        Ok(Found { pairs: vertex_triangle.chain(edge_edge).collect(), too_many: counter.is_over() })
     }
 
     /// By what is near the changed vertices and the elements at them.
-    fn found_around_changes(&self, limit: usize) -> Result<Vec<ElementPair>, IntegrationError> {
+    fn found_around_changes(&self, limit: usize) -> Result<Found, IntegrationError> {
         let (mesh, counter) = (self.surface.connectivity(), Counter::new(limit, self.monitor));
         let mut triangles: Vec<TriId> = Vec::new();
         let mut edges: Vec<EdgeId> = Vec::new();
@@ -265,7 +275,8 @@ impl<'a> Step<'a> {
         let at_vertices: Vec<_> = self.changes.par_iter().map(at_vertex).collect::<Result<_, _>>()?;
         let at_triangles: Vec<_> = triangles.par_iter().map(at_triangle).collect::<Result<_, _>>()?;
         let at_edges: Vec<_> = edges.par_iter().map(at_edge).collect::<Result<_, _>>()?;
-        Ok([at_vertices, at_triangles, at_edges].into_iter().flatten().flatten().collect())
+        let pairs = [at_vertices, at_triangles, at_edges].into_iter().flatten().flatten().collect();
+        Ok(Found { pairs, too_many: counter.is_over() })
     }
 
     fn those_that_touch(
@@ -277,7 +288,15 @@ impl<'a> Step<'a> {
     }
 }
 
-/// Counts what is found, to stop when there is too much of it. Whether it becomes full does not depend on the order.
+/// What a detection finds.
+struct Found {
+    pairs: Vec<ElementPair>,
+    /// Not all of them were asked about.
+    too_many: bool,
+}
+
+/// Counts what is found, and what takes exact integers to tell, to stop when there is too much of it. Whether it becomes full
+/// does not depend on the order.
 struct Counter<'a> {
     found: AtomicUsize,
     limit: usize,
@@ -289,13 +308,16 @@ impl<'a> Counter<'a> {
         Self { found: AtomicUsize::new(0), limit, monitor }
     }
 
-    /// More than the limit; or nobody wants to know any more.
-    fn is_full(&self) -> bool {
-        self.found.load(Ordering::Relaxed) > self.limit || self.monitor.is_cancelled()
+    fn is_over(&self) -> bool {
+        self.found.load(Ordering::Relaxed) > self.limit
     }
 
-    fn count(&self) -> bool {
+    /// More than the limit; or nobody wants to know any more.
+    fn is_full(&self) -> bool {
+        self.is_over() || self.monitor.is_cancelled()
+    }
+
+    fn count(&self) {
         self.found.fetch_add(1, Ordering::Relaxed);
-        true
     }
 }

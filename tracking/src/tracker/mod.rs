@@ -55,7 +55,7 @@ use welter_meshing::surface::{EdgeId, TriId, VertexId};
 /// let ball = sphere(&Sphere { edge_length: 0.3, ..Sphere::default() })?;
 /// let mut tracker = SurfaceTracker::new(MovingSurface::new(&ball)?, TrackerParameters::default())?;
 /// // Stretch it along x.
-/// let flow = Advection { field: |p: DVec3, _time: f64| DVec3::new(p.x, 0.0, 0.0), ..Default::default() };
+/// let flow = Advection::new(|p: DVec3, _time: f64| DVec3::new(p.x, 0.0, 0.0));
 /// for _ in 0..5 {
 ///     let report = tracker.step(&flow, 0.1, &Monitor::none())?;
 ///     assert_eq!(report.dt, 0.1);

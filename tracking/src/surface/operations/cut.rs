@@ -28,9 +28,15 @@ impl MovingSurface {
         ring.iter().try_for_each(|&v| self.require_vertex(v))?;
         let mesh = &self.connectivity;
         let [a, b, c] = ring;
+        let refusal = Refusal::Corners { corners: ring };
+        // A triangle on the ring would have nothing behind it.
+        let on_ring = |h: HalfEdge| ring.contains(&mesh.head(h)) && ring.contains(&mesh.apex(h));
+        if a == b || b == c || c == a || mesh.star(a).any(on_ring) {
+            return Err(refusal);
+        }
         let mut left: Vec<TriId> = Vec::new();
         for [from, to, before] in [[a, b, c], [b, c, a], [c, a, b]] {
-            left.extend(self.left_arc(from, to, before).ok_or(Refusal::Corners { corners: ring })?);
+            left.extend(self.left_arc(from, to, before).ok_or(refusal)?);
         }
         left.sort_unstable();
         left.dedup();
