@@ -11,7 +11,11 @@ import numpy as np
 import pyvista
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLUnstructuredGridReader
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataReader,
+    vtkXMLPolyDataReader,
+    vtkXMLUnstructuredGridReader,
+)
 
 
 def bits(array):
@@ -61,6 +65,29 @@ def vtu(path):
         "pyvista": [mesh.n_points, mesh.n_cells, sorted(mesh.array_names)],
         "pyvista_groups": {name: list(map(int, mesh.field_data[name])) for name in mesh.field_data},
     }
+
+
+def vtp(path):
+    surface = read_vtk(vtkXMLPolyDataReader(), path)
+    mesh = pyvista.read(path)
+    return {
+        "points": bits(vtk_to_numpy(surface.GetPoints().GetData())),
+        "triangles": vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).tolist(),
+        "offsets": vtk_to_numpy(surface.GetPolys().GetOffsetsArray()).tolist(),
+        "point_data": arrays(surface.GetPointData()),
+        "cell_data": arrays(surface.GetCellData()),
+        "area": mesh.area,
+        "pyvista": [mesh.n_points, mesh.n_cells, sorted(mesh.array_names)],
+    }
+
+
+def pvd(path):
+    reader = pyvista.get_reader(path)
+    frames = []
+    for time in reader.time_values:
+        reader.set_active_time_value(time)
+        frames.append([bits([time])[0], reader.read()[0].n_cells])
+    return {"frames": frames}
 
 
 def vti(path):
@@ -124,6 +151,6 @@ def msh(path):
 gmsh.initialize()
 gmsh.option.setNumber("General.Terminal", 0)
 for path in sys.argv[1:]:
-    describe = {"vtu": vtu, "vti": vti, "msh": msh}[path.rsplit(".", 1)[1]]
+    describe = {"vtu": vtu, "vti": vti, "vtp": vtp, "pvd": pvd, "msh": msh}[path.rsplit(".", 1)[1]]
     print(json.dumps(describe(path)))
 gmsh.finalize()

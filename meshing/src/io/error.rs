@@ -227,6 +227,14 @@ pub enum WriteError {
         /// Number of nodes or cells.
         places: usize,
     },
+    /// A time that is infinite or not a number.
+    #[error("file {file:?} is of the time {time}, must be finite")]
+    Time {
+        /// The file.
+        file: String,
+        /// The time given.
+        time: f64,
+    },
     /// A name that cannot be that of an array.
     #[error("the array name {name:?} {why}")]
     ArrayName {

@@ -1,5 +1,5 @@
 //! Readers and writers over `Read` and `Write`: of surface files, OBJ, PLY, STL and OFF; of volumetric meshes, VTU, MSH and MEDIT; and a
-//! writer of grids: VTI.
+//! writer of grids: VTI; of surfaces with values at their vertices: VTP; and of lists of files over time: PVD.
 //!
 //! **Promises.**
 //! * Every finite coordinate of a text file becomes the nearest f64, and what [`write()`] writes as text or as PLY comes
@@ -17,7 +17,7 @@
 //! **Does not promise.** Materials, normals, texture coordinates and vertex colours are not kept. That the result is a
 //! mesh of any kind: see `surface`. Progress and cancellation: a reader or writer around the file can count bytes, and fail.
 //!
-//! **Method.** \[Murray96\] (OBJ), \[Turk94\] (PLY), \[Burns93\] (STL), \[Phillips93\] (OFF), \[Schroeder06\] (VTU, VTI),
+//! **Method.** \[Murray96\] (OBJ), \[Turk94\] (PLY), \[Burns93\] (STL), \[Phillips93\] (OFF), \[Schroeder06\] (VTU, VTI, VTP),
 //! \[Geuzaine09\] (MSH), \[Frey01\] (MEDIT). One pass, linear time, except polygons that are not convex.
 
 mod builder;
@@ -30,6 +30,7 @@ mod obj;
 mod off;
 mod ply;
 mod polygon;
+mod pvd;
 mod source;
 mod stl;
 pub(crate) mod text;
@@ -40,6 +41,7 @@ mod volume_data;
 mod volume_shape;
 mod vti;
 mod vtk;
+mod vtp;
 mod vtu;
 mod words;
 
@@ -48,11 +50,13 @@ pub use data_field::{DataField, FieldValues};
 pub use error::{Place, ReadError, WriteError};
 pub use medit::{MeditOptions, read_medit, write_medit};
 pub use msh::{MshOptions, MshVersion, read_msh, write_msh};
+pub use pvd::{TimedFile, write_pvd};
 pub use view::SurfaceData;
 pub use volume_data::{CellKind, VolumeData, VolumeView};
 pub use volume_shape::TaggedCells;
 pub use vti::{DataArray, write_vti};
 pub use vtk::VtkEncoding;
+pub use vtp::write_vtp;
 pub use vtu::{read_vtu, write_vtu};
 
 use crate::DVec3;

@@ -10,8 +10,10 @@ use std::process::Command;
 use welter_kit::generate::volumes::stacked_cells;
 use welter_meshing::grid::Grid3;
 use welter_meshing::io::{
-    CellGroup, DataArray, DataField, FieldValues, MshVersion, VolumeData, VtkEncoding, write_vti,
+    CellGroup, DataArray, DataField, FieldValues, MshVersion, TimedFile, VolumeData, VtkEncoding, write_pvd,
+    write_vti, write_vtp,
 };
+use welter_meshing::shapes::by_name;
 
 /// The corners of a hexahedron in the order of VTK, Gmsh and MEDIT, after their pictures of it.
 const AROUND: [usize; 8] = [0b000, 0b001, 0b011, 0b010, 0b100, 0b101, 0b111, 0b110];
@@ -288,4 +290,48 @@ fn vtk_and_gmsh_read_what_was_written() {
             assert_eq!(found["pyvista"], pyvista, "{name}");
         }
     }
+}
+
+#[test]
+fn vtk_reads_surfaces_over_time() {
+    let how = "./test.sh --consumers";
+    let Some(python) = python("venv-consumers", "WELTER_CONSUMERS_PYTHON", how) else { return };
+    let mesh = by_name("torus", Some(0.4)).unwrap().into_mesh();
+    let heights: Vec<f64> = mesh.positions().iter().map(|p| p.z / 3.0).collect();
+    let kinds: Vec<f64> = (0..mesh.triangles().len()).map(|k| k as f64).collect();
+    let (points, triangles) =
+        ([DataArray::scalars("height", &heights)], [DataArray::scalars("kind", &kinds)]);
+    let mut files = Vec::new();
+    for encoding in [VtkEncoding::Appended, VtkEncoding::Base64, VtkEncoding::Ascii] {
+        let mut file = Vec::new();
+        write_vtp(&mut file, &mesh, &points, &triangles, encoding).unwrap();
+        files.push((format!("{encoding:?}.vtp"), file));
+    }
+    let mut list = Vec::new();
+    let times = [0.0, 0.1 + 0.2, 1e-7 + 1.0];
+    let names = ["Appended.vtp", "Base64.vtp", "Ascii.vtp"];
+    let timed: Vec<TimedFile<'_>> =
+        times.iter().zip(names).map(|(&time, file)| TimedFile { time, file }).collect();
+    write_pvd(&mut list, &timed).unwrap();
+    files.push(("surface.pvd".into(), list));
+    let found = described(&python, "with_vtk_and_gmsh.py", &files);
+    let (vertices, count) = (mesh.positions().len(), mesh.triangles().len());
+    for ((name, _), found) in files.iter().zip(&found).take(3) {
+        let positions = mesh.positions().iter().flat_map(|p| p.to_array()).map(f64::to_bits);
+        assert_eq!(integers(&found["points"]), positions.collect::<Vec<_>>(), "{name}");
+        let corners: Vec<u64> = mesh.triangles().iter().flatten().map(|v| v.0.into()).collect();
+        assert_eq!(integers(&found["triangles"]), corners, "{name}");
+        assert_eq!(
+            integers(&found["offsets"]),
+            (0..=count as u64).map(|k| 3 * k).collect::<Vec<_>>(),
+            "{name}"
+        );
+        check_arrays(&found["point_data"], &[DataField::new("height", 1, &heights)], name);
+        check_arrays(&found["cell_data"], &[DataField::new("kind", 1, &kinds)], name);
+        let area = welter_meshing::surface::measure::area(&mesh);
+        assert!((found["area"].as_f64().unwrap() / area - 1.0).abs() < 1e-12, "{name}");
+        assert_eq!(found["pyvista"], serde_json::json!([vertices, count, ["height", "kind"]]), "{name}");
+    }
+    let frames: Vec<Value> = times.iter().map(|t| serde_json::json!([t.to_bits(), count])).collect();
+    assert_eq!(found[3]["frames"], Value::Array(frames));
 }

@@ -15,6 +15,8 @@
 
 mod write;
 
+pub(super) use write::array;
+
 use std::io::Write;
 
 use super::WriteError;
@@ -22,14 +24,14 @@ use super::data_field::check_name;
 use super::vtk::VtkEncoding;
 use crate::grid::Grid3;
 
-/// A named array: one number, or a vector, for each node or for each cell.
+/// A named array: one number, or a vector, for each node or vertex, or for each cell or triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DataArray<'a> {
     /// Its name, not empty and without control characters, other than those of the arrays beside it.
     pub name: &'a str,
     /// The numbers, x fastest, the components of a vector next to each other.
     pub values: &'a [f64],
-    /// Numbers of each node or cell: 1 for scalars, 3 for vectors.
+    /// Numbers of each place: 1 for scalars, 3 for vectors.
     pub components: usize,
 }
 
@@ -67,16 +69,21 @@ pub fn write_vti(
     cell_arrays: &[DataArray<'_>],
     encoding: VtkEncoding,
 ) -> Result<(), WriteError> {
-    for (arrays, places) in [(point_arrays, grid.node_count()), (cell_arrays, grid.cell_count())] {
-        for (k, array) in arrays.iter().enumerate() {
-            check(array, places)?;
-            if arrays[..k].iter().any(|before| before.name == array.name) {
-                return Err(WriteError::ArrayName { name: array.name.to_owned(), why: "is given twice" });
-            }
-        }
-    }
+    check_all(point_arrays, grid.node_count())?;
+    check_all(cell_arrays, grid.cell_count())?;
     write::write(&mut output, grid, point_arrays, cell_arrays, encoding)?;
     output.flush()?;
+    Ok(())
+}
+
+/// Names that differ, and as many numbers as there are places for.
+pub(super) fn check_all(arrays: &[DataArray<'_>], places: usize) -> Result<(), WriteError> {
+    for (k, array) in arrays.iter().enumerate() {
+        check(array, places)?;
+        if arrays[..k].iter().any(|before| before.name == array.name) {
+            return Err(WriteError::ArrayName { name: array.name.to_owned(), why: "is given twice" });
+        }
+    }
     Ok(())
 }
 

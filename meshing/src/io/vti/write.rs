@@ -29,7 +29,8 @@ pub(super) fn write(
     vtk::end(output, encoding, points.iter().chain(&cells))
 }
 
-fn array<'a>(array: &DataArray<'a>) -> Array<'a> {
+/// An array as VTK files hold it.
+pub(in crate::io) fn array<'a>(array: &DataArray<'a>) -> Array<'a> {
     let DataArray { name, values, components } = *array;
     let row = move |place: usize, numbers: &mut Vec<f64>| {
         numbers.extend_from_slice(&values[place * components..][..components]);
