@@ -1,7 +1,7 @@
 //! The command line: global options and the list of commands.
 
 use crate::commands::{
-    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, shape,
+    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, shape, track,
 };
 use crate::progress::ProgressMode;
 use clap::{Parser, Subcommand, value_parser};
@@ -26,7 +26,8 @@ First steps:
   welter demo                       a self-intersecting surface, checked exactly, with a picture
   welter check part.stl             is it closed, oriented, and where does it intersect itself?
   welter check --json *.obj         the same for scripts
-  welter mesh part.stl -o part.vtu  its volume as hexahedra; where it overlaps itself the sheets stay apart";
+  welter mesh part.stl -o part.vtu  its volume as hexahedra; where it overlaps itself the sheets stay apart
+  welter track scene.toml -o run    a surface that moves, merges and parts, without ever intersecting itself";
 
 /// Options of every command.
 #[derive(clap::Args, Clone, Debug)]
@@ -50,7 +51,7 @@ pub(crate) struct Global {
     /// Overwrite outputs that exist
     #[arg(long, global = true)]
     pub(crate) force: bool,
-    /// Seed of everything drawn at random (no command of this version draws anything)
+    /// Seed of everything drawn at random that a scene gives no seed for
     #[arg(long, global = true, default_value_t = 0, value_name = "N")]
     pub(crate) seed: u64,
 }
@@ -62,11 +63,13 @@ pub(crate) enum Command {
     Shape(shape::Args),
     Isosurface(isosurface::Args),
     Mesh(mesh::Args),
+    Track(track::Args),
     Check(check::Args),
     Ccd(ccd::Args),
     Convert(convert::Args),
     Info(info::Args),
     Render(render::Args),
+    Replay(replay::Args),
     Doctor(doctor::Args),
     Completions(completions::Args),
 }

@@ -104,6 +104,7 @@ codes! {
     EmptySequence = "W4011", 4, "no file matches the pattern", "there is nothing to read";
     NotRepresentable = "W4012", 4, "coordinate that is no f64",
         "with a rounded coordinate the query is another one, whose answer may differ";
+    NoRunFile = "W4013", 4, "no file of a run", "only what a run has written whole can be gone on from";
 
     SceneSyntax = "W5001", 5, "scene not understood", "a scene is read whole or not at all";
     UnknownKey = "W5002", 5, "unknown key in a scene",
@@ -115,6 +116,8 @@ codes! {
     UndefinedField = "W5007", 5, "field not a number", "a point where the field is no number is neither inside nor outside";
     EmptySurface = "W5008", 5, "no surface within the grid",
         "a surface passes only where the field is below the level at one node and not at its neighbour";
+    SceneDiffers = "W5009", 5, "scene differs from that of the run",
+        "the result would be neither that of one scene nor that of the other";
 
     OverMemory = "W6001", 6, "would pass the memory limit",
         "going on would end in swapping or in the system killing the process";
@@ -129,11 +132,14 @@ codes! {
     OutputExists = "W7003", 7, "output exists", "what is there now would be lost";
     WriteFailed = "W7004", 7, "writing failed", "the result is not whole; the unfinished file was removed";
     OutputIsDirectory = "W7005", 7, "output is a directory", "a file cannot take the place of a directory";
+    RunLocked = "W7006", 7, "run in use", "two processes that write one run would spoil it";
+    NotARun = "W7007", 7, "folder of something else", "what is in it now could be lost among the files of a run";
 
     UnderResolved = "W8001", 8, "features too fine for the cells",
         "where cells are larger than the distance between sheets, these cannot be told apart";
     TimeLimit = "W8002", 8, "time limit reached",
         "what was not done by then is missing from the result";
+    StepFailed = "W8003", 8, "step not completed", "what comes after it cannot be computed; all before it is kept";
 
     FalseAnswers = "W9001", 9, "answers differ from the known ones",
         "an answer that differs from the known one is wrong, or the known one is";

@@ -29,7 +29,7 @@ impl Stream {
     }
 
     /// Writes and flushes; a closed reader is no error.
-    fn write(self, text: &str) -> io::Result<()> {
+    pub(crate) fn write(self, text: &str) -> io::Result<()> {
         let mut stream = self.lock();
         match stream.write_all(text.as_bytes()).and_then(|()| stream.flush()) {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),

@@ -10,6 +10,8 @@ pub(crate) struct Page<'a> {
     pub(crate) verdict: &'a str,
     /// PNG files, each with its caption.
     pub(crate) pictures: &'a [(&'a [u8], &'a str)],
+    /// Curves of numbers over the steps of a run, each with its name.
+    pub(crate) graphs: &'a [(String, Vec<f64>)],
     /// Headings and rows of name and value.
     pub(crate) tables: &'a [(&'a str, Vec<(String, String)>)],
     /// Commands to try next.
@@ -21,7 +23,7 @@ const STYLE: &str = "\
 body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem}\
 h1{font-size:1.6rem;margin-bottom:.2rem}h2{font-size:1.1rem;margin-top:2rem}\
 .verdict{font-size:1.1rem;border-left:4px solid #de4c14;padding-left:.8rem}\
-figure{margin:1.5rem 0}img{max-width:100%;height:auto;border-radius:6px}\
+figure{margin:1.5rem 0}img,svg{max-width:100%;height:auto;border-radius:6px}\
 figcaption,footer{opacity:.7;font-size:.9rem}\
 table{border-collapse:collapse}td{padding:.15rem 1.5rem .15rem 0;border-bottom:1px solid #8884}\
 td:last-child{font-variant-numeric:tabular-nums}\
@@ -46,6 +48,9 @@ impl Page<'_> {
                 base64(png)
             );
         }
+        for (name, values) in self.graphs {
+            html.push_str(&graph(name, values));
+        }
         for (heading, rows) in self.tables {
             let _ = writeln!(html, "<h2>{}</h2>\n<table>", escaped(heading));
             for (name, value) in rows {
@@ -63,6 +68,41 @@ impl Page<'_> {
         );
         html
     }
+}
+
+/// A curve, with its least, greatest and last value in words. What is not finite interrupts it.
+fn graph(name: &str, values: &[f64]) -> String {
+    const SIZE: [f64; 2] = [600.0, 90.0];
+    let finite = || values.iter().copied().filter(|value| value.is_finite());
+    let (least, greatest) =
+        (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+    let Some(last) = finite().next_back() else { return String::new() };
+    let across = SIZE[0] / (values.len().max(2) - 1) as f64;
+    let share = |value: f64| {
+        let whole = greatest - least;
+        if whole > 0.0 { (value - least) / whole } else { 0.5 }
+    };
+    let (mut path, mut drawing) = (String::new(), false);
+    for (k, &value) in values.iter().enumerate() {
+        if value.is_finite() {
+            let letter = if drawing { 'L' } else { 'M' };
+            let (x, y) = (k as f64 * across, SIZE[1] * (1.0 - share(value)));
+            let _ = write!(path, "{letter}{x:.1} {y:.1}");
+        }
+        drawing = value.is_finite();
+    }
+    let number = crate::numbers::number;
+    let caption = escaped(&format!(
+        "{name}: from {} to {}, at the end {}",
+        number(least),
+        number(greatest),
+        number(last)
+    ));
+    format!(
+        "<figure><svg viewBox=\"-2 -2 604 94\" role=\"img\" aria-label=\"{caption}\">\
+         <path d=\"{path}\" fill=\"none\" stroke=\"#de4c14\" stroke-width=\"1.5\" stroke-linejoin=\"round\"/></svg>\
+         <figcaption>{caption}</figcaption></figure>\n"
+    )
 }
 
 fn escaped(text: &str) -> String {
@@ -109,8 +149,24 @@ mod tests {
     }
 
     #[test]
+    fn curves_keep_within_their_frame_and_stop_at_gaps() {
+        let text = graph("volume", &[1.0, f64::NAN, 3.0, 2.0, f64::INFINITY]);
+        assert!(text.contains("d=\"M0.0 90.0M300.0 0.0L450.0 45.0\""), "{text}");
+        assert!(text.contains("volume: from 1 to 3, at the end 2"), "{text}");
+        assert!(graph("same", &[5.0, 5.0]).contains("M0.0 45.0L600.0 45.0"));
+        assert_eq!(graph("none", &[f64::NAN]), "");
+    }
+
+    #[test]
     fn names_of_files_cannot_break_the_page() {
-        let page = Page { title: "<script>", verdict: "a & b", pictures: &[], tables: &[], commands: &[] };
+        let page = Page {
+            title: "<script>",
+            verdict: "a & b",
+            pictures: &[],
+            graphs: &[],
+            tables: &[],
+            commands: &[],
+        };
         let html = page.to_html();
         assert!(!html.contains("<script>") && html.contains("a &amp; b"));
     }

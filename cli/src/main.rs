@@ -6,12 +6,14 @@
 //! What it does not promise: the wording of text for people.
 //!
 //! Map: [`args`] is the command line, [`commands`] has one file a command; [`input`] and [`output`] own files,
-//! [`scene`] reads scene files; [`console`] and [`progress`] own the terminal, [`failure`] and [`bug`] tell what went wrong; [`render`] draws.
+//! [`scene`] reads scene files; [`console`] and [`progress`] own the terminal, [`failure`] and [`bug`] tell what went wrong; [`render`] draws;
+//! [`runs`] is what every solver over time runs in: folder, checkpoints, frames, statistics, report.
 
 #![forbid(unsafe_code)]
 
 mod args;
 mod bug;
+mod clock;
 mod closed;
 mod codes;
 mod commands;
@@ -25,10 +27,12 @@ mod interrupt;
 mod machine;
 mod numbers;
 mod output;
+mod overrides;
 mod picture;
 mod progress;
 mod render;
 mod run;
+mod runs;
 mod scene;
 mod sequence;
 mod surface_file;

@@ -36,6 +36,36 @@ pub(crate) fn abandon_all() -> impl Drop {
     paths
 }
 
+/// A file that is to go when the process ends early, such as a lock, or with this.
+#[derive(Debug)]
+pub(crate) struct Passing(PathBuf);
+
+impl Passing {
+    /// Takes care of a file that exists.
+    pub(crate) fn of(path: PathBuf) -> Self {
+        unfinished().push(path.clone());
+        Self(path)
+    }
+}
+
+impl Drop for Passing {
+    fn drop(&mut self) {
+        let mut known = unfinished();
+        if let Some(at) = known.iter().position(|path| path == &self.0) {
+            let _ = fs::remove_file(&self.0);
+            known.swap_remove(at);
+        }
+    }
+}
+
+/// Writes a file whole or not at all, in the place of one that may be there.
+pub(crate) fn write_whole<E: Into<WriteProblem>>(
+    name: &Path,
+    body: impl FnOnce(&mut dyn Write) -> Result<(), E>,
+) -> Result<(), Box<Failure>> {
+    Output::prepare(name, true, &[])?.write(body)
+}
+
 /// A place where a result will be written.
 #[derive(Debug)]
 pub(crate) struct Output {

@@ -3,7 +3,7 @@
 use crate::args::{Cli, Command};
 use crate::codes::Code;
 use crate::commands::{
-    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, shape,
+    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, shape, track,
 };
 use crate::console::{Console, print_error, write_json_once};
 use crate::failure::Failure;
@@ -24,6 +24,8 @@ pub(crate) struct Run {
     pub(crate) force: bool,
     /// Threads in use.
     pub(crate) threads: usize,
+    /// For what is drawn at random.
+    pub(crate) seed: u64,
 }
 
 /// What a command gives back: the exit code of a run that ended as it should, or why it failed.
@@ -63,7 +65,7 @@ fn run(cli: Cli) -> Outcome {
         progress: Progress::new(global.progress, global.quiet),
         started: Instant::now(),
     };
-    let run = Run { console, force: global.force, threads };
+    let run = Run { console, force: global.force, threads, seed: global.seed };
     let outcome = match cli.command {
         Command::Demo(args) => demo::run(&args, &run),
         Command::Check(args) => check::run(&args, &run),
@@ -72,6 +74,8 @@ fn run(cli: Cli) -> Outcome {
         Command::Shape(args) => shape::run(&args, &run),
         Command::Isosurface(args) => isosurface::run(&args, &run),
         Command::Mesh(args) => mesh::run(&args, &run),
+        Command::Track(args) => track::run(&args, &run),
+        Command::Replay(args) => replay::run(&args, &run),
         Command::Convert(args) => convert::run(&args, &run),
         Command::Info(args) => info::run(&args, &run),
         Command::Doctor(args) => doctor::run(&args, &run),

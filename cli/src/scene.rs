@@ -6,6 +6,7 @@
 use crate::codes::Code;
 use crate::failure::{Failure, shell_word};
 use crate::input::{cannot_read, edit_distance};
+use crate::overrides::Overrides;
 use glam::DVec3;
 use std::fs;
 use std::ops::Range;
@@ -20,9 +21,22 @@ const MAX_BYTES: u64 = 16 << 20;
 pub(crate) struct Scene {
     pub(crate) name: PathBuf,
     pub(crate) text: String,
+    /// Values that take the place of those in the text.
+    overrides: Overrides,
 }
 
 impl Scene {
+    /// A scene that is at hand.
+    pub(crate) fn of(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into(), overrides: Overrides::default() }
+    }
+
+    /// Takes values of the command line, `key.of.table=value`, the last of a key last.
+    pub(crate) fn set(mut self, arguments: &[String]) -> Result<Self, Box<Failure>> {
+        self.overrides = Overrides::of(arguments, self.text.len())?;
+        Ok(self)
+    }
+
     /// Reads the file.
     pub(crate) fn read(name: &Path) -> Result<Self, Box<Failure>> {
         let subject = || name.display().to_string();
@@ -45,21 +59,31 @@ impl Scene {
                 .subject(subject())
                 .help(format!("file {}   # tells what it is", shell_word(name)))
         })?;
-        Ok(Self { name: name.to_owned(), text })
+        Ok(Self::of(name, text))
     }
 
     /// What the text says.
     pub(crate) fn parse(&self) -> Result<Spanned<DeTable<'_>>, Box<Failure>> {
-        DeTable::parse(&self.text).map_err(|error| {
+        let mut table = DeTable::parse(&self.text).map_err(|error| {
             let what = error.message().lines().collect::<Vec<_>>().join(", ");
             let span = error.span().unwrap_or(0..0);
             self.fault(Code::SceneSyntax, &span, format!("not TOML: {what}"))
                 .help("https://toml.io has the syntax on one page")
-        })
+        })?;
+        self.overrides
+            .apply(table.get_mut())
+            .map_err(|(span, what)| self.fault(Code::BadValue, &span, what))?;
+        Ok(table)
     }
 
     /// A failure at a place in the text.
     pub(crate) fn fault(&self, code: Code, span: &Range<usize>, what: impl Into<String>) -> Box<Failure> {
+        if let Some(argument) = self.overrides.at(span) {
+            return Failure::new(code, what)
+                .subject(self.name.display().to_string())
+                .place(format!("--set {argument}"))
+                .help("a key is given with the tables that it is in: --set time.step=0.01");
+        }
         let start = span.start.min(self.text.len());
         let line = self.text.as_bytes()[..start].iter().filter(|&&b| b == b'\n').count() + 1;
         let name = self.name.display().to_string();
@@ -109,6 +133,13 @@ impl<'t> Section<'t> {
         })
     }
 
+    /// The keys that are there, in the order of the text.
+    pub(crate) fn keys(&self) -> Vec<&str> {
+        let mut keys: Vec<_> = self.table.keys().collect();
+        keys.sort_by_key(|key| key.span().start);
+        keys.into_iter().map(|key| key.get_ref().as_ref()).collect()
+    }
+
     pub(crate) fn get(&self, key: &str) -> Option<Entry<'t>> {
         let (_, value) = self.table.iter().find(|(name, _)| name.get_ref() == key)?;
         let path = format!("{}{key}", self.path);
@@ -150,6 +181,7 @@ impl<'t> Section<'t> {
 }
 
 impl<'t> Entry<'t> {
+    /// What it is, and what is wanted.
     pub(crate) fn bad(&self, wanted: &str) -> Box<Failure> {
         let what = format!("`{}` is {}, and {wanted} is wanted", self.path, shown(self.value));
         self.scene.fault(Code::BadValue, &self.span, what)
@@ -191,6 +223,10 @@ impl<'t> Entry<'t> {
         let number = self.value.as_integer();
         let number = number.and_then(|n| u64::from_str_radix(n.as_str(), n.radix()).ok());
         number.ok_or_else(|| self.bad("a whole number from 0 on"))
+    }
+
+    pub(crate) fn flag(&self) -> Result<bool, Box<Failure>> {
+        self.value.as_bool().ok_or_else(|| self.bad("true or false"))
     }
 
     pub(crate) fn text(&self) -> Result<&'t str, Box<Failure>> {
@@ -248,7 +284,7 @@ fn shown(value: &DeValue<'_>) -> String {
 }
 
 /// The known name that differs least, if by little.
-fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
+pub(crate) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
     let name: String = name.chars().take(40).flat_map(char::to_lowercase).collect();
     let (edits, nearest) = known.iter().map(|known| (edit_distance(&name, known), *known)).min()?;
     (edits <= nearest.len() / 3 + 1).then_some(nearest)
@@ -259,7 +295,7 @@ mod tests {
     use super::*;
 
     fn with<T>(text: &str, look: impl FnOnce(Section<'_>) -> T) -> T {
-        let scene = Scene { name: "a.toml".into(), text: text.to_owned() };
+        let scene = Scene::of("a.toml", text);
         let table = scene.parse().expect("valid TOML");
         look(Section::whole(&scene, &table))
     }
@@ -294,11 +330,11 @@ mod tests {
 
     #[test]
     fn what_is_not_toml_is_told_with_its_line() {
-        let scene = Scene { name: "a.toml".into(), text: "a = 1\nb = = 2".to_owned() };
+        let scene = Scene::of("a.toml", "a = 1\nb = = 2");
         let fault = scene.parse().unwrap_err();
         assert_eq!((fault.code, fault.places[0].as_str()), (Code::SceneSyntax, "a.toml:2"));
         // Nesting without end is refused and not followed.
-        let deep = Scene { name: "a.toml".into(), text: format!("a = {}", "[".repeat(100_000)) };
+        let deep = Scene::of("a.toml", format!("a = {}", "[".repeat(100_000)));
         assert!(deep.parse().is_err());
     }
 }

@@ -3,7 +3,7 @@
 use crate::harness::Bench;
 
 /// Every source file of these tests: where codes are tried.
-const TESTS: [&str; 14] = [
+const TESTS: [&str; 16] = [
     include_str!("bad_input.rs"),
     include_str!("ccd.rs"),
     include_str!("check.rs"),
@@ -17,6 +17,8 @@ const TESTS: [&str; 14] = [
     include_str!("outputs.rs"),
     include_str!("render.rs"),
     include_str!("shape.rs"),
+    include_str!("track.rs"),
+    include_str!("track_runs.rs"),
     include_str!("usage.rs"),
 ];
 

@@ -19,4 +19,6 @@ mod mesh_of_curves;
 mod outputs;
 mod render;
 mod shape;
+mod track;
+mod track_runs;
 mod usage;

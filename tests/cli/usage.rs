@@ -8,11 +8,13 @@ const COMMANDS: &[&str] = &[
     "shape",
     "isosurface",
     "mesh",
+    "track",
     "check",
     "ccd",
     "convert",
     "info",
     "render",
+    "replay",
     "doctor",
     "completions",
 ];

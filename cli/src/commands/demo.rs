@@ -235,6 +235,7 @@ fn page(
             (png, &caption),
             (cut_png, "its volume as hexahedra, cut open; two colours on one face: two hexahedra on one cell, of different sheets"),
         ],
+        graphs: &[],
         tables: &tables,
         commands: &[
             format!("welter check {word} --pairs"),

@@ -10,4 +10,6 @@ pub(crate) mod info;
 pub(crate) mod isosurface;
 pub(crate) mod mesh;
 pub(crate) mod render;
+pub(crate) mod replay;
 pub(crate) mod shape;
+pub(crate) mod track;

@@ -175,7 +175,7 @@ mod tests {
 
     /// Everything that can be found out without files.
     fn read(text: String) -> Result<Grid3, Box<Failure>> {
-        let scene = Scene { name: "a.toml".into(), text };
+        let scene = Scene::of("a.toml", text);
         let table = scene.parse()?;
         let spec = Spec::of(&scene, &table)?;
         let (field, _) = field(&scene, &table, None)?;
