@@ -89,6 +89,8 @@ const KINDS: [(&str, Kind); 7] = [
     ("jitter", Kind::Jitter),
 ];
 
+const SCHEMES: [(&str, Scheme); 2] = [("rk4", Scheme::Rk4), ("euler", Scheme::Euler)];
+
 impl SceneFlow {
     /// `seed` is for what the scene gives no seed.
     pub(super) fn read(flow: &mut Settings<'_>, seed: u64) -> Result<Self, Box<Failure>> {
@@ -143,6 +145,7 @@ impl SceneFlow {
                 let default = MeanCurvature::default();
                 let motion = MeanCurvature {
                     speed: flow.number("speed", default.speed, ANY)?,
+                    scheme: flow.choice("scheme", &SCHEMES)?,
                     safety: flow.number("safety", default.safety, ANY)?,
                     stiffness: flow.number("stiffness", default.stiffness, ANY)?,
                 };
@@ -161,7 +164,7 @@ impl SceneFlow {
     }
 
     fn advection(flow: &mut Settings<'_>, field: Field) -> Result<Self, Box<Failure>> {
-        let scheme = flow.choice("scheme", &[("rk4", Scheme::Rk4), ("euler", Scheme::Euler)])?;
+        let scheme = flow.choice("scheme", &SCHEMES)?;
         let origin = flow.vector("origin", DVec3::ZERO)?;
         Ok(Self::Advection(Advection { field: Placed { field, origin }, scheme }))
     }

@@ -51,7 +51,7 @@ Kinds of [flow] and their keys:
   enright         period, size                     rotation   center, angular_velocity
   curl-noise      seed, wavelength, speed,         shear      center, direction, gradient
                   period, octaves, gain, waves, potential = \"spatial\" | \"planar\"
-  (of these: scheme = \"rk4\" | \"euler\", origin)
+  (of these: scheme = \"rk4\" | \"euler\", origin; mean-curvature has a scheme too)
   normal          speed, or schedule = [[time, speed], ...]; front = \"entropy\" | \"sharp\"
   mean-curvature  speed, safety, stiffness         jitter     amplitude_rel, seed
 [output]: every, checkpoint_every, check_every (steps), pictures = true, size = [800, 600]
