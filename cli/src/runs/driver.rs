@@ -1,6 +1,7 @@
 //! The loop over the steps of a run: [`drive`].
 
 use super::checkpoint::{self, Checkpoint};
+use super::folder::sweep;
 use super::record::{self, Record, Status};
 use super::state::Writer;
 use super::stats::{self, Stats};
@@ -76,6 +77,7 @@ impl<'a, S: Simulation> Driver<'a, S> {
         let record = Record::new(plan.solver, &plan.scene.to_json(), &toml);
         let (step, time) = from.as_ref().map_or((0, simulation.time()), |from| (from.step, from.time));
         folder.keep();
+        sweep(folder.path());
         record.write(folder.path(), Status::Running, step, time)?;
         record::write_scene(folder.path(), &toml)?;
         record::log(folder.path(), &format!("process {} begins after step {step}", std::process::id()));

@@ -181,9 +181,24 @@ impl Drop for RunFolder {
     }
 }
 
+/// Removes the unfinished files of a process that was killed; under the lock there can be no others.
+pub(super) fn sweep(path: &Path) {
+    for folder in ["", "surface", "paraview", "preview", "checkpoint", "failure"] {
+        for entry in fs::read_dir(path.join(folder)).into_iter().flatten().flatten() {
+            if is_unfinished(&entry.file_name().to_string_lossy()) {
+                let _ = fs::remove_file(entry.path());
+            }
+        }
+    }
+}
+
+fn is_unfinished(name: &str) -> bool {
+    name.starts_with(".welter-") && name.ends_with(".part")
+}
+
 /// Whether nothing is in a folder but what a process that ended early leaves.
 fn is_free(path: &Path) -> Result<bool, Box<Failure>> {
     let entries = fs::read_dir(path).map_err(|error| crate::input::cannot_read(path, &error))?;
     let mut names = entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
-    Ok(names.all(|name| name == lock::NAME || (name.starts_with(".welter-") && name.ends_with(".part"))))
+    Ok(names.all(|name| name == lock::NAME || is_unfinished(&name)))
 }

@@ -294,6 +294,7 @@ fn what_a_killed_process_leaves_is_mended() {
     let mut lines = fs::read(folder.join("stats.jsonl")).expect("as it should be");
     lines.truncate(lines.len() - 5);
     fs::write(folder.join("stats.jsonl"), lines).expect("as it should be");
+    fs::write(folder.join("paraview/.welter-1-0.part"), "half").expect("as it should be");
     fs::write(folder.join("surface/frame_0004.ply"), "ply\n").expect("as it should be");
     fs::write(folder.join("lock"), "process 1, since then\n").expect("as it should be");
     go(&folder, Start::Resume, &plan(0.1), None).expect("as it should be");
