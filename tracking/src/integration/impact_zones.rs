@@ -39,8 +39,7 @@ const PROGRESS: f64 = 0.125;
 /// How often what is left of the approaches is solved for, at most.
 const REPETITIONS: usize = 2;
 
-/// Up to so many collisions a zone's system is factorised: that takes some ten milliseconds, about as long as iterations would,
-/// and tells the rank.
+/// Up to so many collisions a zone's system is factorised, which tells the rank; chosen by trial.
 const DENSE: usize = 384;
 
 /// Contacts of a pair whose normals differ by less than the angle with this versine (a degree) are one constraint.

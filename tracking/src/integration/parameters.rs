@@ -18,11 +18,10 @@ pub struct IntegrationParameters {
     pub friction: f64,
     /// Sweeps of single impulses. Default: 3 \[Brochu12, section 3.2.7\].
     pub sweeps: u32,
-    /// Rounds in which impact zones are solved and may grow. Default: 12: in fuzz tests zones that ended did so within half
-    /// as many rounds.
+    /// Rounds in which impact zones are solved and may grow. Default: 12, chosen by trial on stacked sheets.
     pub zone_rounds: u32,
-    /// The most collisions that one impact zone solves for; a larger one moves rigidly. Default: 8192, at most some
-    /// hundred milliseconds.
+    /// The most collisions that one impact zone solves for; a larger one moves rigidly. Default: 8192, chosen by trial: two
+    /// sheets of 5,760 triangles on each other end without rigid zones.
     pub most_zone_collisions: u32,
     /// Rounds in which rigid zones may grow. Default: 12, as `zone_rounds`.
     pub rigid_rounds: u32,
