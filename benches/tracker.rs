@@ -32,7 +32,7 @@ fn phases(s: &PhaseSeconds) -> [f64; 7] {
 
 /// Microseconds a triangle and step by phase, the mean number of triangles, that at the end, and operations a step.
 fn measure(edge_length: f64, topology: bool) -> ([f64; 7], f64, usize, f64) {
-    let ball = Sphere { radius: 0.15, center: DVec3::splat(0.35), edge_length, ..Sphere::default() };
+    let ball = Sphere { radius: 0.15, center: DVec3::splat(0.35), edge_length };
     let surface = MovingSurface::new(&sphere(&ball).expect("a sphere")).expect("admissible");
     let mut parameters = TrackerParameters::default();
     parameters.topology.enabled = topology;

@@ -95,7 +95,7 @@ fn motion(random: &mut Random, size: f64, edge: f64) -> (Box<dyn Flow>, f64) {
 
 #[test]
 fn whatever_moves_stays_embedded() {
-    let steps: usize = setting("WELTER_TRACKER_STEPS", 60);
+    let steps: usize = setting("WELTER_TRACKER_STEPS", 40);
     let mut random = Random::new(setting("WELTER_TRACKER_SEED", 1));
     let (mut done, mut refused, mut runs) = (0, 0, 0);
     let [mut changes, mut shortened, mut slowest] = [0.0_f64; 3];

@@ -15,7 +15,7 @@ use welter_tracking::tracker::{SurfaceTracker, TrackerError, TrackerParameters};
 
 fn ball(edge_length: f64) -> TriMesh {
     let center = DVec3::splat(0.35);
-    sphere(&Sphere { center, radius: 0.15, edge_length, ..Sphere::default() }).unwrap().into_mesh()
+    sphere(&Sphere { center, radius: 0.15, edge_length }).unwrap().into_mesh()
 }
 
 fn enright(size: f64) -> Advection<Enright> {

@@ -22,8 +22,8 @@
 //! on changes of topology do.
 //!
 //! # Complexity
-//! A step is linear in the number of elements in practice; see [`improvement`](crate::improvement) and
-//! [`integration`](crate::integration).
+//! A step is linear in the number of elements in practice; see [`improvement`] and
+//! [`integration`].
 
 mod error;
 mod parameters;
