@@ -82,8 +82,13 @@ fn main() {
                 && rows.len() > 1
             {
                 let exponent = |k: usize| 1.0 + (last[k] / first[k]).ln() / (m / n).ln();
-                let of =
-                    |k| if first[k] > 0.0 { format!("{:>8.3}", exponent(k)) } else { format!("{:>8}", "-") };
+                let of = |k| {
+                    if first[k] > 0.0 && last[k] > 0.0 {
+                        format!("{:>8.3}", exponent(k))
+                    } else {
+                        format!("{:>8}", "-")
+                    }
+                };
                 println!(" exponent {}", std::array::from_fn::<String, 7, _>(of).join(" "));
             }
         }
