@@ -11,8 +11,8 @@
 //! * A step that fails returns an error and leaves the surface as it was.
 //! * With topology switched off, no change of topology.
 //! * The same bits for any number of threads; and with all lengths (surface, flow) times a power of two, the same
-//!   connectivity and the same bits, scaled (for edges from 1e-70 to 1e70 or so). A tracker made of the surface of another goes on with the same bits as that one:
-//!   [`SurfaceTracker::resume`].
+//!   connectivity and the same bits, scaled (for edges from 1e-70 to 1e70 or so). A tracker made of the surface of another goes on
+//!   with the same bits as that one: [`SurfaceTracker::resume`].
 //!
 //! # What it does not promise
 //! That the flow is asked only where the surface is: it is asked where smoothing would put the vertices, and once more if they
@@ -78,7 +78,7 @@ pub struct SurfaceTracker {
 
 /// After so many steps the trees of the broad phase are built anew: those that follow a surface that is stretched and
 /// remeshed get worse by and by (on the Enright test queries took five times as long after 250 steps), and building costs
-/// as much as a third of a step.
+/// as much as a fifth of a step.
 const LIFE_OF_TREES: u32 = 8;
 
 impl SurfaceTracker {
