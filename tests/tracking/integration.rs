@@ -14,6 +14,18 @@ use welter_tracking::broad_phase::{BroadPhase, Motion};
 use welter_tracking::integration::{IntegrationError, IntegrationParameters, Resolved, accept, resolve};
 use welter_tracking::surface::MovingSurface;
 
+/// Every stage switched off but the last resort.
+fn no_stages() -> IntegrationParameters {
+    IntegrationParameters {
+        proximity_rel: 0.0,
+        sweeps: 0,
+        zone_rounds: 0,
+        rigid_rounds: 0,
+        most_halvings: 0,
+        ..IntegrationParameters::default()
+    }
+}
+
 /// A surface with its broad phase and reference length.
 #[derive(Clone)]
 struct Body {

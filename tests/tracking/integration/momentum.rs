@@ -24,14 +24,7 @@ fn falling(random: &mut Random, by: f64) -> (Body, Vec<DVec3>) {
 }
 
 fn only(change: impl Fn(&mut IntegrationParameters)) -> IntegrationParameters {
-    let mut parameters = IntegrationParameters {
-        proximity_rel: 0.0,
-        sweeps: 0,
-        zone_rounds: 0,
-        rigid_rounds: 0,
-        most_halvings: 0,
-        ..IntegrationParameters::default()
-    };
+    let mut parameters = super::no_stages();
     change(&mut parameters);
     parameters
 }

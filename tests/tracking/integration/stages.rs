@@ -7,17 +7,6 @@ use welter_kit::moving::{first_collision, stack};
 use welter_meshing::surface::{TriMesh, TriangleSoup};
 use welter_tracking::integration::{ElementPair, IntegrationParameters, Resolved};
 
-fn none() -> IntegrationParameters {
-    IntegrationParameters {
-        proximity_rel: 0.0,
-        sweeps: 0,
-        zone_rounds: 0,
-        rigid_rounds: 0,
-        most_halvings: 0,
-        ..IntegrationParameters::default()
-    }
-}
-
 /// A triangle at rest and a small one above it, `height` above, that is to go `down`.
 fn vertex_above_triangle(height: f64) -> Body {
     let positions = vec![
@@ -42,7 +31,7 @@ fn down(body: &Body, by: f64) -> Vec<DVec3> {
 #[test]
 fn repulsion_sends_a_pair_as_far_apart_as_it_is_told() {
     let mut body = vertex_above_triangle(0.125);
-    let parameters = IntegrationParameters { proximity_rel: 0.5, ..none() };
+    let parameters = IntegrationParameters { proximity_rel: 0.5, ..super::no_stages() };
     // Down by a bit, which repulsion turns round.
     let ends = down(&body, 0.0625);
     let resolved = body.step(ends, &parameters);
@@ -66,7 +55,7 @@ fn an_impulse_takes_the_approach_away_and_nothing_else() {
         .enumerate()
         .map(|(i, &p)| if i < 3 { p } else { p + DVec3::X * 0.125 })
         .collect();
-    let resolved = body.step(ends.clone(), &IntegrationParameters { sweeps: 3, ..none() });
+    let resolved = body.step(ends.clone(), &IntegrationParameters { sweeps: 3, ..super::no_stages() });
     assert_eq!((resolved.report.collisions, resolved.report.impulses), (Some(1), 1), "{:?}", resolved.report);
     let p = body.surface.positions();
     assert!((0..6).all(|i| p[i].x == ends[i].x && p[i].y == ends[i].y));
@@ -83,9 +72,10 @@ fn zones_resolve_together_what_impulses_pass_on() {
     let mut body = Body::new(&stack(6, 4, 4.0, 0.02));
     let ends: Vec<DVec3> =
         body.surface.positions().iter().map(|&p| p - DVec3::Z * 3.0 * p.z + 0.01 * random.point()).collect();
-    let one_sweep = body.clone().step(ends.clone(), &IntegrationParameters { sweeps: 1, ..none() });
+    let one_sweep =
+        body.clone().step(ends.clone(), &IntegrationParameters { sweeps: 1, ..super::no_stages() });
     assert!(one_sweep.report.resting_vertices > 0, "one sweep was enough: {:?}", one_sweep.report);
-    let zones = IntegrationParameters { zone_rounds: 30, ..none() };
+    let zones = IntegrationParameters { zone_rounds: 30, ..super::no_stages() };
     let resolved = body.step(ends, &zones);
     println!("{:?}", resolved.report);
     assert!(
@@ -106,7 +96,7 @@ fn a_singular_zone_is_found_out_and_solved() {
     let mut body = Body::new(&mesh);
     let p = body.surface.positions();
     let ends: Vec<DVec3> = (0..8).map(|i| if i < 4 { p[i] } else { p[i] - DVec3::Z }).collect();
-    let resolved = body.step(ends, &IntegrationParameters { zone_rounds: 5, ..none() });
+    let resolved = body.step(ends, &IntegrationParameters { zone_rounds: 5, ..super::no_stages() });
     println!("{:?}", resolved.report);
     assert!(resolved.report.singular_systems > 0, "{:?}", resolved.report);
     assert_eq!(
@@ -127,7 +117,7 @@ fn rigid_zones_resolve_what_is_left_without_zones() {
     let mut body = Body::new(&stack(3, 2, 2.0, 0.02));
     let ends: Vec<DVec3> =
         body.surface.positions().iter().map(|&p| p - DVec3::Z * 3.0 * p.z + 0.01 * random.point()).collect();
-    let resolved = body.step(ends, &IntegrationParameters { rigid_rounds: 30, ..none() });
+    let resolved = body.step(ends, &IntegrationParameters { rigid_rounds: 30, ..super::no_stages() });
     println!("{:?}", resolved.report);
     assert!(resolved.report.rigid_zones > 0, "{:?}", resolved.report);
     assert_eq!((resolved.report.resting_vertices, resolved.fraction), (0, 1.0), "{:?}", resolved.report);
@@ -138,7 +128,7 @@ fn shorter_steps_go_as_far_as_they_can() {
     let mut body = vertex_above_triangle(0.25);
     let ends = down(&body, 1.0);
     // Contact at a quarter of the way: an eighth is free of it.
-    let resolved = body.step(ends, &IntegrationParameters { most_halvings: 5, ..none() });
+    let resolved = body.step(ends, &IntegrationParameters { most_halvings: 5, ..super::no_stages() });
     assert_eq!((resolved.fraction, resolved.report.shortenings), (0.125, 3));
     assert_eq!(body.surface.positions()[3].z, 0.125);
     assert_eq!(resolved.report.resting_vertices, 0);
@@ -151,7 +141,7 @@ fn what_nothing_helps_stays_where_it_is_and_no_more() {
     // Another corner of the small triangle, which does not collide.
     ends[4] = body.surface.positions()[4] + DVec3::X;
     let before = body.surface.clone();
-    let Resolved { ends: resolved, report, .. } = body.step(ends.clone(), &none());
+    let Resolved { ends: resolved, report, .. } = body.step(ends.clone(), &super::no_stages());
     assert!(matches!(first_collision(&before, &ends), Some(ElementPair::VertexTriangle(..))));
     assert_eq!(report.resting_vertices, 4, "{report:?}");
     assert_eq!(resolved[3], before.positions()[3]);
