@@ -1,9 +1,11 @@
 //! Surfaces that move: [`scenes`] of closed and open surfaces that are embedded, violent [`ends`], and the slow twin of
-//! collision resolution's checks, [`first_collision`].
+//! collision resolution's checks, [`first_collision`]; and whether solids are nested in solids, [`misplaced_components`].
 
+mod nesting;
 mod scenes;
 mod twin;
 
+pub use nesting::misplaced_components;
 pub use scenes::{Scene, mean_edge_length, scenes, sheet, stack};
 pub use twin::{collisions, first_collision};
 

@@ -4,7 +4,7 @@
 use super::{check, setting};
 use glam::{DMat3, DVec3};
 use welter_kit::mesher::Random;
-use welter_kit::moving::scenes;
+use welter_kit::moving::{misplaced_components, scenes};
 use welter_meshing::Monitor;
 use welter_tracking::flows::fields::{CurlNoise, CurlNoiseParameters, Enright};
 use welter_tracking::flows::{Advection, FaceOffsetting, Flow, Jitter, MeanCurvature, Scheme};
@@ -116,6 +116,7 @@ fn whatever_moves_stays_embedded() {
                 break;
             }
             let before = surface.connectivity().euler_characteristic();
+            let misplaced = misplaced_components(&surface.to_mesh());
             let (flow, dt) = motion(&mut random, (high - low).max_element(), tracker.reference_length());
             let clock = std::time::Instant::now();
             let step = tracker.step(&*flow, dt, &Monitor::none());
@@ -132,6 +133,10 @@ fn whatever_moves_stays_embedded() {
                 Err(error) => panic!("run {runs}, {}: {error}", scene.name),
             }
             check(&tracker);
+            if misplaced == 0 {
+                let after = misplaced_components(&tracker.surface().to_mesh());
+                assert_eq!(after, 0, "run {runs}, {}: solid within solid", scene.name);
+            }
             if !parameters.topology.enabled {
                 let after = tracker.surface().connectivity().euler_characteristic();
                 assert_eq!(before, after, "run {runs}, {}", scene.name);

@@ -102,7 +102,7 @@ fn powers_of_two_and_threads_change_no_bit() {
     };
     let one = result(1.0, 1);
     assert_eq!(one, result(1.0, 3));
-    for exponent in [-200, -1, 5, 200] {
+    for exponent in [-490, -200, -1, 5, 200, 490] {
         let scale = 2f64.powi(exponent);
         let other = result(scale, 2);
         assert_eq!(one.triangles(), other.triangles(), "{exponent}");

@@ -4,7 +4,8 @@
 //! * to the end that may not be moved, or that ends a surface, or where more than two sheets meet;
 //! * else to the end on the sharper feature: corner before ridge before smooth patch, by the eigenvalues of the quadric
 //!   metric tensor;
-//! * else where the subdivision scheme says, or on a ridge to the middle, shifted so that volume is kept \[Lindstrom98\];
+//! * else where the subdivision scheme says, or on a ridge to the middle; both, by default, shifted so that volume is kept
+//!   \[Lindstrom98\];
 //!
 //! and where that is not admitted to the middle, to either end, or nowhere: the collapse is refused.
 //!
@@ -95,8 +96,11 @@ impl Workpiece<'_> {
         let removed = if kept == a { b } else { a };
         let (pk, pr) = (self.at(kept), self.at(removed));
         let middle = 0.5 * pk + 0.5 * pr;
-        // Where it may go off the edge, volume is kept.
-        let kept_volume = |p: DVec3| volume_preserving(&self.triangles_of([a, b]), p);
+        // Where it may go off the edge.
+        let kept_volume = |p: DVec3| match self.parameters.collapses_keep_volume {
+            true => volume_preserving(&self.triangles_of([a, b]), p),
+            false => p,
+        };
         let places: Vec<DVec3> = match place {
             Place::AtKept => vec![pk],
             Place::OnLine => vec![middle, pk, pr],

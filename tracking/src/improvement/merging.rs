@@ -11,18 +11,17 @@
 //! widens from pair to pair. The vertex where the seam parts has two fans then, and is separated.
 //!
 //! Of the four ways to put the holes together that with the shortest edges across is tried first; each with both ways of
-//! cutting its quadrilaterals. Where none is admitted the pair is left. A way is admitted only if, exactly, no new
-//! triangle meets another one in more than what they share, and no vertex lies in the space between the old and the
-//! new triangles; and where edges would get more than two triangles it is not.
+//! cutting its quadrilaterals. Where none is admitted the pair is left. A way is admitted only if it
+//! fills the space between the sheets and nothing else (`filling`); and where edges would get more than two triangles it is
+//! not.
 
+use super::shape::unit_normal;
 use super::workpiece::Workpiece;
 use crate::collision::closest_points;
 use crate::surface::HalfEdge;
 use glam::DVec3;
 use rayon::prelude::*;
-use welter_meshing::spatial::{Box3, meet_in_more};
 use welter_meshing::surface::{EdgeId, TriId, VertexId};
-use welter_predicates::intersection::tetrahedron_contains;
 
 /// Cosine of the angle by which sheets may fail to face each other: each normal is within 60 degrees of the way across.
 const FACING: f64 = 0.5;
@@ -62,10 +61,7 @@ impl Workpiece<'_> {
             return None;
         }
         let faces = |[h, o]: [HalfEdge; 2], way: DVec3| {
-            [h, o].iter().all(|h| {
-                let area = super::shape::area_vector(self.places(h.triangle()));
-                area.dot(way) > FACING * area.length() * way.length()
-            })
+            [h, o].iter().all(|h| unit_normal(self.places(h.triangle())).dot(way) > FACING * way.length())
         };
         (faces(sides[0], across) && faces(sides[1], -across)).then_some(length)
     }
@@ -95,7 +91,7 @@ impl Workpiece<'_> {
                 reason = reason.or(Some(Reason::Topology));
                 continue;
             }
-            if !self.may_merge(plan.removed(), &remove, plan.added(), &add) {
+            if !self.may_fill(plan.removed(), &remove, plan.added(), &add) {
                 reason = Some(Reason::Intersection);
                 continue;
             }
@@ -117,43 +113,6 @@ impl Workpiece<'_> {
     fn hole(&self, [h, o]: [HalfEdge; 2]) -> [VertexId; 4] {
         let mesh = self.surface.connectivity();
         [mesh.tail(h), mesh.apex(o), mesh.head(h), mesh.apex(h)]
-    }
-
-    /// Whether the triangles of a tube meet nothing, and nothing lies in it. `gone` are all triangles that go, `sheets` those of
-    /// the holes; `come` those that come, `walls` all of the tube.
-    fn may_merge(
-        &self,
-        gone: &[TriId],
-        sheets: &[TriId],
-        come: &[[VertexId; 3]],
-        walls: &[[VertexId; 3]],
-    ) -> bool {
-        let at = |v: VertexId| self.at(v);
-        for (i, &s) in come.iter().enumerate() {
-            if come[..i].iter().any(|&t| meet_in_more(at, s, t)) {
-                return false;
-            }
-        }
-        // The space between is bounded by the sheets and the walls: it is covered by the tetrahedra from one corner.
-        let mut bounds: Vec<[DVec3; 3]> = sheets.iter().map(|&t| self.places(t)).collect();
-        bounds.extend(walls.iter().map(|t| t.map(at)));
-        let tip = bounds[0][0];
-        let around = bounds.iter().flatten().fold(Box3::EMPTY, |all, &p| all.union(&Box3::of([p])));
-        let is_corner = |p: DVec3| bounds.iter().flatten().any(|&q| q == p);
-        let between = |p: DVec3| {
-            around.contains(p)
-                && !is_corner(p)
-                && bounds.iter().any(|&[a, b, c]| tetrahedron_contains([a, b, c, tip], p))
-        };
-        let boxes: Vec<Box3> = come.iter().map(|t| Box3::of(t.map(at))).collect();
-        self.broad_phase.all_triangles_near(&around, |t, own| {
-            if gone.contains(&t) {
-                return true;
-            }
-            let corners = self.surface.connectivity().corners(t);
-            let meets = |(b, &new): (&Box3, &[VertexId; 3])| own.meets(b) && meet_in_more(at, corners, new);
-            !(boxes.iter().zip(come).any(meets) || corners.iter().any(|&v| between(self.at(v))))
-        })
     }
 }
 

@@ -14,7 +14,7 @@
 //!   `merging`), and nothing passes through anything.
 //! * With topology switched off no change of topology is made: components, holes, boundaries stay.
 //! * All lengths are relative to a reference length: times a power of two, surface and reference give the same changes, and the
-//!   same bits, scaled; as long as fourth powers of lengths are in the range of normal numbers (edges from 1e-70 to 1e70 or so).
+//!   same bits, scaled; as long as squares of lengths are normal numbers (edges from 1e-150 to 1e150).
 //! * The same bits for any number of threads.
 //! * Vertices of infinite mass stay where they are.
 //!
@@ -27,6 +27,7 @@
 mod angles;
 mod collapse;
 mod embedding;
+mod filling;
 mod flip;
 mod merging;
 mod parameters;

@@ -13,7 +13,7 @@
 //! a crease, the point there is replaced by the one of a flat continuation.
 
 use super::SplitScheme;
-use super::shape::area_vector;
+use super::shape::unit_normal;
 use super::workpiece::Workpiece;
 use crate::quadric::VertexQuadric;
 use crate::surface::HalfEdge;
@@ -74,7 +74,7 @@ pub(crate) fn of_collapse(piece: &Workpiece<'_>, edge: EdgeId) -> Option<DVec3> 
 
 /// Whether the triangles of two half-edges differ in their normals by more than the crease angle.
 fn is_crease(piece: &Workpiece<'_>, sides: [HalfEdge; 2]) -> bool {
-    let [n, m] = sides.map(|h| area_vector(piece.places(h.triangle())).normalize_or_zero());
+    let [n, m] = sides.map(|h| unit_normal(piece.places(h.triangle())));
     n.dot(m) < piece.crease_cosine
 }
 

@@ -9,7 +9,7 @@
 //! shortest paths are found \[Persson06\]. The result depends on the surface alone.
 
 use super::CurvatureAdaption;
-use super::shape::area_vector;
+use super::shape::unit_normal;
 use super::split::ordered;
 use crate::surface::MovingSurface;
 use rayon::prelude::*;
@@ -76,7 +76,7 @@ fn largest_bend(surface: &MovingSurface, v: VertexId) -> f64 {
         let mut around = mesh.around_edge(mesh.edge(h));
         let (Some(s), Some(t), None) = (around.next(), around.next(), around.next()) else { continue };
         let [s, t] = [s, t].map(|side| places(side.triangle()));
-        let normals = [s, t].map(|t| area_vector(t).normalize_or_zero());
+        let normals = [s, t].map(unit_normal);
         let centroids = [s, t].map(|[a, b, c]| a / 3.0 + b / 3.0 + c / 3.0);
         let distance = centroids[0].distance(centroids[1]);
         let angle = libm::atan2(normals[0].cross(normals[1]).length(), normals[0].dot(normals[1]));

@@ -9,6 +9,7 @@
 
 use super::shape::volume_preserving;
 use crate::quadric::VertexQuadric;
+use crate::quadric::scale::Scale;
 use crate::surface::MovingSurface;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -30,10 +31,11 @@ fn place(surface: &MovingSurface, v: VertexId, ridge_threshold: f64) -> DVec3 {
     if !mesh.has_vertex(v) || surface.masses()[v.index()].is_infinite() {
         return here;
     }
+    let scale = Scale::of_star(surface, v);
     let (mut sum, mut weight, mut nearest) = (DVec3::ZERO, 0.0, f64::INFINITY);
     let mut ends = [None; 2];
     for h in mesh.star(v) {
-        let [p, q] = [mesh.head(h), mesh.apex(h)].map(|w| surface.position(w) - here);
+        let [p, q] = [mesh.head(h), mesh.apex(h)].map(|w| scale.difference(surface.position(w), here));
         let area = p.cross(q).length();
         sum += area * ((p + q) / 3.0);
         weight += area;
@@ -56,7 +58,8 @@ fn place(surface: &MovingSurface, v: VertexId, ridge_threshold: f64) -> DVec3 {
     };
     let length = way.length();
     let most = REACH * nearest;
-    let mut moved = if length > most { here + (most / length) * way } else { here + way };
+    let way = if length > most { (most / length) * way } else { way };
+    let mut moved = here + scale.restored(way);
     if ends == [None; 2] && length > 0.0 {
         let triangles = mesh.star(v).map(|h| mesh.corners(h.triangle()).map(|w| surface.position(w)));
         moved = volume_preserving(&triangles.collect::<Vec<_>>(), moved);

@@ -2,7 +2,7 @@
 
 use super::embedding::Replacement;
 use super::report::ImprovementReport;
-use super::shape::{area_vector, six_volumes};
+use super::shape::{six_volumes, unit_normal};
 use super::sizing::Sizing;
 use super::{ImprovementParameters, TopologyParameters};
 use crate::broad_phase::BroadPhase;
@@ -67,12 +67,11 @@ impl Workpiece<'_> {
 
     /// Whether no triangle that comes is degenerate or turned away from all that go.
     pub(crate) fn keeps_normals(&self, before: &[[DVec3; 3]], after: &[[DVec3; 3]]) -> bool {
-        let normals: Vec<DVec3> = before.iter().map(|&t| area_vector(t).normalize_or_zero()).collect();
+        let normals: Vec<DVec3> = before.iter().map(|&t| unit_normal(t)).collect();
         after.iter().all(|&t| {
-            let area = area_vector(t);
-            let length = area.length();
-            let limit = self.least_agreement * length;
-            length > 0.0 && normals.iter().any(|n| n.dot(area) >= limit && *n != DVec3::ZERO)
+            let normal = unit_normal(t);
+            let agrees = |n: &DVec3| n.dot(normal) >= self.least_agreement && *n != DVec3::ZERO;
+            normal != DVec3::ZERO && normals.iter().any(agrees)
         })
     }
 

@@ -11,7 +11,7 @@
 //! * A step that fails returns an error and leaves the surface as it was.
 //! * With topology switched off, no change of topology.
 //! * The same bits for any number of threads; and with all lengths (surface, flow) times a power of two, the same
-//!   connectivity and the same bits, scaled (for edges from 1e-70 to 1e70 or so). A tracker made of the surface of another goes on
+//!   connectivity and the same bits, scaled (for edges from 1e-150 to 1e150). A tracker made of the surface of another goes on
 //!   with the same bits as that one: [`SurfaceTracker::resume`].
 //!
 //! # What it does not promise

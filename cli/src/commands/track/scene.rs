@@ -143,6 +143,7 @@ fn read_improvement(table: &mut Settings<'_>) -> Result<(ImprovementParameters, 
         max_edge_rel: table.number("max_edge_rel", default.max_edge_rel, ANY)?,
         min_edge_rel: table.number("min_edge_rel", default.min_edge_rel, ANY)?,
         max_volume_change_rel: table.number("max_volume_change_rel", default.max_volume_change_rel, ANY)?,
+        collapses_keep_volume: table.flag("collapses_keep_volume", default.collapses_keep_volume)?,
         max_split_volume_change_rel: table.number(
             "max_split_volume_change_rel",
             default.max_split_volume_change_rel,
