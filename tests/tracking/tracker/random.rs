@@ -35,7 +35,8 @@ fn options(random: &mut Random) -> TrackerParameters {
         flip: !no_flip,
         collapse: !no_collapse,
         curvature: fine.then(CurvatureAdaption::default),
-        most_triangles: 4000,
+        // Most runs are small, so that there are many.
+        most_triangles: [4000, 1000, 1000, 1000].get(random.below(16) as usize).copied().unwrap_or(300),
         ..ImprovementParameters::default()
     };
     let topology = TopologyParameters { enabled: topology, merge_distance_rel: random.between(0.0, 0.4) };

@@ -110,7 +110,7 @@ impl Workpiece<'_> {
             let scaled = |v: VertexId| (self.at(v) - tip) / self.length;
             let part: Vec<[DVec3; 3]> = part.iter().map(|t| t.map(scaled)).collect();
             let volume = six_volumes(&part, DVec3::ZERO);
-            if !(volume > ROUNDINGS * six_volumes_size(&part)) {
+            if volume.is_nan() || volume <= ROUNDINGS * six_volumes_size(&part) {
                 return false;
             }
         }
