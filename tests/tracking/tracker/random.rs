@@ -117,7 +117,9 @@ fn whatever_moves_stays_embedded() {
                 break;
             }
             let before = surface.connectivity().euler_characteristic();
-            let misplaced = misplaced_components(&surface.to_mesh());
+            // Around open sheets, what closes later may be nested anyhow.
+            let closed = surface.connectivity().edges().all(|e| !surface.connectivity().is_boundary(e));
+            let nested = closed && misplaced_components(&surface.to_mesh()) == 0;
             let (flow, dt) = motion(&mut random, (high - low).max_element(), tracker.reference_length());
             let clock = std::time::Instant::now();
             let step = tracker.step(&*flow, dt, &Monitor::none());
@@ -134,7 +136,7 @@ fn whatever_moves_stays_embedded() {
                 Err(error) => panic!("run {runs}, {}: {error}", scene.name),
             }
             check(&tracker);
-            if misplaced == 0 {
+            if nested {
                 let after = misplaced_components(&tracker.surface().to_mesh());
                 assert_eq!(after, 0, "run {runs}, {}: solid within solid", scene.name);
             }
