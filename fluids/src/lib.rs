@@ -7,6 +7,8 @@
 //! * The same scene gives the same bits for any number of threads.
 //!
 //! # What it holds today
-//! Nothing: the crate marks its place in the dependency direction predicates -> meshing -> tracking -> fluids.
+//! * [`procedural`]: flow without simulation, from formulas with exact curls.
 
 #![forbid(unsafe_code)]
+
+pub mod procedural;

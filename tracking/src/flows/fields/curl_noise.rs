@@ -133,6 +133,14 @@ struct Turns {
     frequency: f64,
     phase: f64,
     amplitude: DVec3,
+    /// Amplitude of the potential, perpendicular to the vector: `2 pi vector x potential` is the amplitude.
+    potential: DVec3,
+}
+
+impl Turns {
+    fn angle(&self, position: DVec3, time: f64) -> f64 {
+        self.vector.dot(position) + (self.frequency * time + self.phase)
+    }
 }
 
 impl CurlNoise {
@@ -161,11 +169,13 @@ impl CurlNoise {
             let speed = if square > 0.0 { gain * coarsest / square.sqrt() } else { 0.0 };
             for wave in &mut waves[first..] {
                 let Wave { vector, frequency, phase, amplitude } = *wave;
+                let unit_potential = amplitude.cross(vector) / (TAU * vector.length_squared());
                 let turn = Turns {
                     vector: vector * (ratio / parameters.wavelength),
                     frequency: frequency * (ratio * gain / parameters.period),
                     phase,
                     amplitude: amplitude * speed,
+                    potential: unit_potential * (speed * parameters.wavelength / ratio),
                 };
                 *wave = Wave {
                     vector: TAU * turn.vector,
@@ -183,6 +193,27 @@ impl CurlNoise {
     #[must_use]
     pub fn waves(&self) -> &[Wave] {
         &self.waves
+    }
+
+    /// The vector potential, a sum of `sin(k . x + w t + p)`, and the velocity, its curl: that of
+    /// [`VelocityField::velocity`], bit for bit. The potential has no divergence either, so of all potentials of a wave it is
+    /// the shortest.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use welter_tracking::flows::{VelocityField, fields::{CurlNoise, CurlNoiseParameters}};
+    /// let noise = CurlNoise::new(&CurlNoiseParameters::default())?;
+    /// let (_potential, curl) = noise.potential_and_velocity(DVec3::X, 0.5);
+    /// assert_eq!(curl, noise.velocity(DVec3::X, 0.5));
+    /// # Ok::<(), welter_tracking::flows::FlowError>(())
+    /// ```
+    #[must_use]
+    pub fn potential_and_velocity(&self, position: DVec3, time: f64) -> (DVec3, DVec3) {
+        let add = |(potential, velocity): (DVec3, DVec3), wave: &Turns| {
+            let (sin, cos) = sincos_of_turns(wave.angle(position, time));
+            (potential + sin * wave.potential, velocity + cos * wave.amplitude)
+        };
+        self.turns.iter().fold((DVec3::ZERO, DVec3::ZERO), add)
     }
 }
 
@@ -209,24 +240,33 @@ fn draw(mut random: Random, potential: Potential) -> (Wave, DVec3) {
 impl VelocityField for CurlNoise {
     fn velocity(&self, position: DVec3, time: f64) -> DVec3 {
         let add = |sum: DVec3, wave: &Turns| {
-            let turns = wave.vector.dot(position) + (wave.frequency * time + wave.phase);
-            sum + cos_of_turns(turns) * wave.amplitude
+            sum + cos_of_rest(rest_of_turns(wave.angle(position, time))) * wave.amplitude
         };
         self.turns.iter().fold(DVec3::ZERO, add)
     }
 }
 
-/// `cos(2 pi turns)` within 2 u; NaN for what is not finite.
-///
-/// Whole turns are taken off without rounding. The rest is at most half a turn, `r`, and the cosine is the sine of the
-/// quarter turn less `|r|`, by its power series up to the 23rd power, whose next term is below 2^-60.
-fn cos_of_turns(turns: f64) -> f64 {
+/// Sine and cosine of `2 pi turns`, each within 2 u of one; NaN for what is not finite.
+fn sincos_of_turns(turns: f64) -> (f64, f64) {
+    let rest = rest_of_turns(turns);
+    // A quarter of a turn back: from -3/4 to 1/4, brought to at most a half.
+    let back = rest - 0.25;
+    (cos_of_rest(if back < -0.5 { back + 1.0 } else { back }), cos_of_rest(rest))
+}
+
+/// What whole turns leave, at most half a turn; without rounding.
+fn rest_of_turns(turns: f64) -> f64 {
     // Adding it rounds numbers up to half of it to whole ones.
     const WHOLE: f64 = 3.0 * (1_u64 << 51) as f64;
-    let mut rest = turns - ((turns + WHOLE) - WHOLE);
-    if rest.abs() > 0.5 {
-        rest = turns - libm::rint(turns);
-    }
+    let rest = turns - ((turns + WHOLE) - WHOLE);
+    if rest.abs() > 0.5 { turns - libm::rint(turns) } else { rest }
+}
+
+/// `cos(2 pi rest)` within 2 u, for a rest of at most half a turn.
+///
+/// The cosine is the sine of the quarter turn less `|rest|`, by its power series up to the 23rd power, whose next term is
+/// below 2^-60.
+fn cos_of_rest(rest: f64) -> f64 {
     let quarter = 0.25 - rest.abs();
     let square = quarter * quarter;
     SINE_OF_TURNS.iter().rev().fold(0.0, |sum, &term| sum * square + term) * quarter
@@ -249,22 +289,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn cosines_of_turns() {
+    fn sines_and_cosines_of_turns() {
         let mut worst: f64 = 0.0;
         for i in -4000..=4000 {
             let turns = f64::from(i) / 1234.0;
-            worst = worst.max((cos_of_turns(turns) - libm::cos(TAU * turns.rem_euclid(1.0))).abs());
+            let (sin, cos) = libm::sincos(TAU * turns.rem_euclid(1.0));
+            let found = sincos_of_turns(turns);
+            worst = worst.max((found.0 - sin).abs()).max((found.1 - cos).abs());
         }
         assert!(worst < 1e-15, "{worst:e}");
         for (turns, cosine) in [(0.0, 1.0), (0.25, 0.0), (0.5, -1.0), (0.75, 0.0), (1e15 + 0.5, -1.0)] {
-            assert!((cos_of_turns(turns) - cosine).abs() < 1e-15, "{turns}");
-            assert!((cos_of_turns(-turns) - cosine).abs() < 1e-15, "{turns}");
+            assert!((sincos_of_turns(turns).1 - cosine).abs() < 1e-15, "{turns}");
+            assert!((sincos_of_turns(-turns).1 - cosine).abs() < 1e-15, "{turns}");
         }
         for large in [4e15, 1e16, 1e300] {
-            assert!(cos_of_turns(large).abs() <= 1.0 + 1e-15, "{large}");
+            let (sin, cos) = sincos_of_turns(large);
+            assert!(sin.abs() <= 1.0 + 1e-15 && cos.abs() <= 1.0 + 1e-15, "{large}");
         }
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert!(cos_of_turns(bad).is_nan());
+            assert!(sincos_of_turns(bad).0.is_nan() && sincos_of_turns(bad).1.is_nan());
         }
     }
 }

@@ -1,0 +1,141 @@
+//! Flows around solids: [`Bounded`].
+//!
+//! # What it computes
+//! With the signed distance `phi` to a solid, positive outside, `R` an odd ramp from zero at the wall to one at the width `w`, and
+//! `psi_w` a potential of the motion of the solid, `1/2 U x (x - anchor)` plus a constant vector,
+//! ```text
+//!   v = curl(psi_w + R(phi / w) (psi - psi_w))
+//!     = v_w + R (curl psi - v_w) + R'/w  grad phi x (psi - psi_w)
+//! ```
+//! as \[Bridson07\] bounds curl noise, here for any potential, and for sums of them.
+//!
+//! # What it promises
+//! * No divergence, as of every curl. Farther than the width from the solid nothing changes, bit for bit.
+//! * At the wall, `phi = 0`, the velocity relative to the solid is `R'(0)/w grad phi x (psi - psi_w)`: perpendicular to the normal
+//!   within the rounding of one cross product, whatever the potential and the ramp. It is not zero: the fluid slips.
+//! * So the wall is a surface that the exact flow does not cross, from either side: along a path `phi` changes at a rate of
+//!   at most a number times `phi`, and so has no zero. A step of the method of Runge and Kutta along a plane wall does not cross it
+//!   either; along a curved one it may, by its own error, of order five in the step: paths of a fixed time cross by an error of order
+//!   four at most.
+//! * Of solids at rest without an anchor, one [`Bounded`] in another, all walls hold, also where their layers overlap.
+//! * Velocities have as many continuous derivatives as the gradient of the distance and the potential, up to four.
+//!
+//! # What it does not promise
+//! * More than one wall where layers of moving or anchored solids overlap: there the last one holds. Two such
+//!   solids that may meet are better united to one shape.
+//! * Continuous velocities at kinks of the distance (around edges, half way between parts): there the part along the wall jumps
+//!   in direction. The part across the kink does not, so there is no divergence in the kink.
+//! * Tangential flow on edges and corners, where there is no normal.
+//! * A flow inside that means something: it is that of the odd ramp, against the flow outside. What is inside stays inside.
+//! * Rotation of solids, or speeds that do not grow where the width is small: they are of the order of `psi / w`.
+//! * Gradients by finite differences: a distance that has no other is refused ([`ProceduralError::NoExactGradient`]); where only
+//!   a part of it has none, velocities there are not numbers.
+//!
+//! # Complexity
+//! That of the potential and the distance; in the layer also a gradient, and with an anchor a second potential.
+
+use glam::DVec3;
+use welter_meshing::field::ScalarField;
+use welter_tracking::flows::VelocityField;
+
+use super::ramp::ramp;
+use super::{LocalPotential, Path, ProceduralError, VectorPotential};
+
+/// How a flow is led around a solid.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoundaryParameters {
+    /// How far from the solid the flow is changed, a length from 2^-450 to 2^450. There is no default but 0, which is refused: about the
+    /// size of the solid for wind, the longest wavelength for noise.
+    pub ramp_width: f64,
+    /// A point in the middle of the solid, where it is before the path displaces it. If there is one, the potential there is taken off:
+    /// the flow around the solid does then not depend on constants in the potential, such as the origin of
+    /// [`Wind`](super::Wind). Default: none.
+    pub anchor: Option<DVec3>,
+    /// The displacement of the solid over time. Default: it rests.
+    pub path: Option<Path>,
+}
+
+impl BoundaryParameters {
+    /// Whether the parameters are in range.
+    ///
+    /// # Errors
+    /// [`ProceduralError::Parameter`] for the first that is not.
+    pub fn validate(&self) -> Result<(), ProceduralError> {
+        ProceduralError::require_length("ramp_width", self.ramp_width)?;
+        ProceduralError::require_finite_vector("anchor", self.anchor.unwrap_or(DVec3::ZERO))
+    }
+}
+
+/// A flow that goes around a solid.
+///
+/// ```
+/// use glam::DVec3;
+/// use welter_fluids::procedural::{BoundaryParameters, Bounded, Wind, WindParameters};
+/// use welter_meshing::field::Ball;
+/// use welter_tracking::flows::VelocityField;
+/// let wind = Wind::new(&WindParameters::default())?;
+/// let around = Bounded::new(wind, Ball::default(), &BoundaryParameters { ramp_width: 1.0, ..Default::default() })?;
+/// // The wind stops in front of the ball, passes at its side, and is as it was far away.
+/// assert_eq!(around.velocity(DVec3::NEG_X, 0.0), DVec3::ZERO);
+/// assert!(around.velocity(DVec3::Y, 0.0).x > 1.0);
+/// assert_eq!(around.velocity(DVec3::new(0.0, 2.5, 0.0), 0.0), DVec3::X);
+/// # Ok::<(), welter_fluids::procedural::ProceduralError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bounded<P, S> {
+    flow: P,
+    solid: S,
+    parameters: BoundaryParameters,
+}
+
+impl<P: VectorPotential, S: ScalarField> Bounded<P, S> {
+    /// Leads a flow around a solid, which is where the field is negative; best a signed distance.
+    ///
+    /// # Errors
+    /// As [`BoundaryParameters::validate`]; [`ProceduralError::NoExactGradient`] for a field without a gradient in closed form.
+    pub fn new(flow: P, solid: S, parameters: &BoundaryParameters) -> Result<Self, ProceduralError> {
+        parameters.validate()?;
+        if !solid.gradient(DVec3::ZERO, NO_STEP).is_finite() {
+            return Err(ProceduralError::NoExactGradient);
+        }
+        Ok(Self { flow, solid, parameters: parameters.clone() })
+    }
+
+    /// Displacement and velocity of the solid.
+    fn motion(&self, time: f64) -> (DVec3, DVec3) {
+        self.parameters.path.as_ref().map_or((DVec3::ZERO, DVec3::ZERO), |path| path.value_and_rate(time))
+    }
+}
+
+/// The step for finite differences that gives none.
+const NO_STEP: f64 = f64::NAN;
+
+impl<P: VectorPotential, S: ScalarField> VectorPotential for Bounded<P, S> {
+    fn potential_and_curl(&self, position: DVec3, time: f64) -> LocalPotential {
+        let free = self.flow.potential_and_curl(position, time);
+        let (displacement, velocity) = self.motion(time);
+        let in_solid = position - displacement;
+        let (value, slope) = ramp(self.solid.value(in_solid) / self.parameters.ramp_width);
+        if value == 1.0 && slope == 0.0 {
+            return free;
+        }
+        let anchor = self.parameters.anchor.unwrap_or(DVec3::ZERO);
+        let mut wall = velocity.cross(0.5 * (in_solid - anchor));
+        if self.parameters.anchor.is_some() {
+            wall += self.flow.potential_and_curl(anchor + displacement, time).potential;
+        }
+        let (potential, curl) = (free.potential - wall, free.curl - velocity);
+        let mut sum = velocity + value * curl;
+        if slope != 0.0 {
+            let normal = self.solid.gradient(in_solid, NO_STEP) / self.parameters.ramp_width;
+            sum += slope * normal.cross(potential);
+        }
+        LocalPotential { potential: wall + value * potential, curl: sum }
+    }
+}
+
+impl<P: VectorPotential, S: ScalarField> VelocityField for Bounded<P, S> {
+    fn velocity(&self, position: DVec3, time: f64) -> DVec3 {
+        self.potential_and_curl(position, time).curl
+    }
+}
