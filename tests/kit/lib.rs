@@ -15,6 +15,7 @@ pub mod fuzz;
 pub mod generate;
 pub mod mesher;
 pub mod moving;
+pub mod procedural;
 pub mod surface;
 pub mod volumetric;
 

@@ -11,8 +11,9 @@
 //! are made of \[Angelidis05\].
 //!
 //! # What it promises
-//! * Both integrals are in closed form for each segment, within some 20 roundings of the sum of the magnitudes, also on the
-//!   line, at its vertices and in line with segments.
+//! * Both integrals are in closed form for each segment, within some 10 roundings of the integral of the magnitudes and what
+//!   a shift of the position by three roundings of the length of the segment changes, also on the line, at its vertices and in line
+//!   with segments.
 //! * The velocity is the curl of the potential, so it has no divergence, whether the line is closed or not; it has all
 //!   derivatives.
 //! * All lengths times a power of two, the circulation times its square: velocities times the power, bit for bit, as long

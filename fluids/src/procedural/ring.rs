@@ -10,8 +10,9 @@
 //! [`VortexFilament`](super::VortexFilament) is the same of a polygon.
 //!
 //! # What it promises
-//! * Potential and velocity are those integrals within some 20 roundings of the largest speed near, at every finite point: on
-//!   the circle, on the axis, at the centre. There is no `0/0`: see the method.
+//! * Potential and velocity are those integrals within some 10 roundings of the integral of the magnitudes, and what
+//!   a shift of the position by a few roundings of the radius changes, at every finite point: on the circle, on the axis, at the centre.
+//!   There is no `0/0`: see the method.
 //! * The velocity is the curl of the potential, so it has no divergence; it has all derivatives.
 //! * Far from the core, relative to `a`, the flow is that of an infinitely thin ring, with a relative error of the order `(a/s)^2`
 //!   at a distance `s` from the circle; the circulation around the circle at that distance is `s^2 / (s^2 + a^2)` of the

@@ -38,6 +38,25 @@ impl Dual {
         Self { value: self.value.cos(), gradient: -self.value.sin() * self.gradient }
     }
 
+    /// The square root, of a value above zero.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        let value = self.value.sqrt();
+        Self { value, gradient: self.gradient / (2.0 * value) }
+    }
+
+    /// One over a value that is not zero.
+    #[must_use]
+    pub fn recip(self) -> Self {
+        Self { value: 1.0 / self.value, gradient: -self.gradient / (self.value * self.value) }
+    }
+
+    /// The curl of a vector.
+    #[must_use]
+    pub fn curl([x, y, z]: [Self; 3]) -> DVec3 {
+        DVec3::new(z.gradient.y - y.gradient.z, x.gradient.z - z.gradient.x, y.gradient.x - x.gradient.y)
+    }
+
     /// The values of a vector, and its divergence.
     #[must_use]
     pub fn divergence(vector: [Self; 3]) -> (DVec3, f64) {
