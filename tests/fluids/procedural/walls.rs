@@ -226,13 +226,11 @@ fn particles() -> usize {
 fn particles_do_not_cross_walls() {
     let ball = Ball { center: DVec3::new(0.2, 0.1, -0.3), radius: 0.5 };
     let torus = Torus { radius: 0.7, tube_radius: 0.25, ..Torus::default() };
-    let cuboid = Cuboid { min: DVec3::splat(-0.5), max: DVec3::splat(0.4), rounding: 0.125 };
     let plane = HalfSpace { point: DVec3::new(0.0, 0.0, 0.0), normal: DVec3::Z };
     // At speeds of about 3 a step is a twentieth of the smallest radius of curvature.
     let solids = [
         ("ball", AnyField::new(ball), 200),
         ("torus", AnyField::new(torus), 400),
-        ("rounded cuboid", AnyField::new(cuboid), 800),
         ("plane", AnyField::new(plane), 200),
     ];
     let ring = VortexRingParameters { core: 0.3, center: DVec3::new(0.1, -0.2, 0.3), ..Default::default() };
@@ -253,22 +251,35 @@ fn particles_do_not_cross_walls() {
     }
 }
 
-/// Particles that start on the wall of a ball leave it by the error of the method alone: of order four.
+/// The root of the mean square of how far particles that start on a wall are off it after a time of one.
+fn off_the_wall<S: ScalarField + Copy>(solid: S, wall: &[DVec3], steps: u32) -> f64 {
+    let flow = around(solid, 0.25);
+    let off = wall
+        .par_iter()
+        .map(|&start| solid.value(followed(|p, t| flow.velocity(p, t), start, [0.0, 1.0], steps)).powi(2));
+    (off.collect::<Vec<_>>().iter().sum::<f64>() / wall.len() as f64).sqrt()
+}
+
+/// Particles that start on a wall leave it by the error of the method alone: of order four where the distance is smooth, of order two where
+/// its second derivatives jump, as where a face joins a round edge.
 #[test]
-fn walls_are_crossed_by_an_error_of_order_four() {
+fn walls_are_crossed_by_the_error_of_the_method() {
     let ball = Ball { center: DVec3::new(0.2, 0.1, -0.3), radius: 0.5 };
-    let flow = around(ball, 0.25);
-    let wall: Vec<DVec3> =
+    let on_ball: Vec<DVec3> =
         points(100, 1.0, 60).into_iter().map(|p| ball.center + 0.5 * p.normalize()).collect();
-    let errors = [40, 80, 160].map(|steps| {
-        let off = wall
-            .par_iter()
-            .map(|&start| ball.value(followed(|p, t| flow.velocity(p, t), start, [0.0, 1.0], steps)).abs());
-        off.collect::<Vec<_>>().into_iter().fold(0.0, f64::max)
-    });
-    let orders = [0, 1].map(|i| f64::log2(errors[i] / errors[i + 1]));
-    println!("off the wall after 40, 80, 160 steps by {errors:?}: orders {orders:?}");
-    assert!(orders[1] > 3.9, "{orders:?}");
+    let cuboid = Cuboid { min: DVec3::splat(-0.5), max: DVec3::splat(0.4), rounding: 0.125 };
+    let on_cuboid: Vec<DVec3> = points(400, 1.5, 62)
+        .into_iter()
+        .filter(|&p| cuboid.value(p) > 0.0)
+        .map(|p| p - cuboid.value(p) * cuboid.gradient(p, f64::NAN))
+        .collect();
+    let errors_on_ball = [40, 80, 160].map(|steps| off_the_wall(ball, &on_ball, steps));
+    let errors_on_cuboid = [50, 200, 800].map(|steps| off_the_wall(cuboid, &on_cuboid, steps));
+    println!("ball, 40, 80, 160 steps: off the wall by {errors_on_ball:?}");
+    println!("rounded cuboid, 50, 200, 800 steps: off the wall by {errors_on_cuboid:?}");
+    let order = |errors: [f64; 3], ratio: f64| (errors[1] / errors[2]).ln() / ratio.ln();
+    assert!(order(errors_on_ball, 2.0) > 3.9);
+    assert!(order(errors_on_cuboid, 4.0) > 1.8);
 }
 
 /// What is inside stays inside.
