@@ -8,7 +8,9 @@
 //!
 //! # What it holds today
 //! * [`procedural`]: flow without simulation, from formulas with exact curls.
+//! * [`smoke`]: smoke as a surface: which surfaces are released, when and where.
 
 #![forbid(unsafe_code)]
 
 pub mod procedural;
+pub mod smoke;

@@ -31,6 +31,7 @@
 //! * To bring a particle back that a step too long has put into the solid: it stays there.
 //! * A flow inside that means something: it is that of the odd ramp, against the flow outside. What is inside stays inside.
 //! * Rotation of solids, or speeds that do not grow where the width is small: they are of the order of `psi / w`.
+//! * Numbers where the distance has none, as beyond 1e150.
 //! * Gradients by finite differences: a distance that has no other is refused ([`ProceduralError::NoExactGradient`]); where only
 //!   a part of it has none, velocities there are not numbers.
 //!
