@@ -75,7 +75,15 @@ fn seventh(s: f64) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keyframes<T> {
     keys: Vec<(f64, T)>,
-    interpolation: Interpolation,
+    course: Course<T>,
+}
+
+/// How values go from one keyframe to the next.
+#[derive(Clone, Debug, PartialEq)]
+enum Course<T> {
+    Between(Interpolation),
+    /// By the cubic polynomials that have these rates at the keyframes.
+    Rates(Vec<T>),
 }
 
 /// Displacements over time.
@@ -87,20 +95,31 @@ impl<T: Keyed> Keyframes<T> {
     /// # Errors
     /// [`ProceduralError::NoKeyframes`], [`ProceduralError::KeyTime`] or [`ProceduralError::KeyValue`] for the first fault.
     pub fn new(keys: Vec<(f64, T)>, interpolation: Interpolation) -> Result<Self, ProceduralError> {
-        if keys.is_empty() {
-            return Err(ProceduralError::NoKeyframes);
+        check(&keys)?;
+        Ok(Self { keys, course: Course::Between(interpolation) })
+    }
+
+    /// Times, values and how fast they change there: between them the cubic polynomials that fit, so that the rate is continuous. Before
+    /// the first and after the last the value stays, whatever the rate.
+    ///
+    /// ```
+    /// use welter_fluids::procedural::Keyframes;
+    /// let square = Keyframes::with_rates(&[(0.0, 0.0, 0.0), (2.0, 4.0, 4.0), (3.0, 9.0, 6.0)])?;
+    /// assert_eq!([0.5, 1.0, 2.0, 2.5].map(|t| square.at(t)), [0.25, 1.0, 4.0, 6.25]);
+    /// assert_eq!(square.rate(1.5), 3.0);
+    /// # Ok::<(), welter_fluids::procedural::ProceduralError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Keyframes::new`]; [`ProceduralError::KeyValue`] also for a rate that is not finite.
+    pub fn with_rates(keys: &[(f64, T, T)]) -> Result<Self, ProceduralError> {
+        if let Some(index) = keys.iter().position(|&(_, _, rate)| !rate.is_finite()) {
+            return Err(ProceduralError::KeyValue { index });
         }
-        let mut before = f64::NEG_INFINITY;
-        for (index, &(time, value)) in keys.iter().enumerate() {
-            if !time.is_finite() || time <= before {
-                return Err(ProceduralError::KeyTime { index, time });
-            }
-            if !value.is_finite() {
-                return Err(ProceduralError::KeyValue { index });
-            }
-            before = time;
-        }
-        Ok(Self { keys, interpolation })
+        let rates = keys.iter().map(|&(_, _, rate)| rate).collect();
+        let keys: Vec<_> = keys.iter().map(|&(time, value, _)| (time, value)).collect();
+        check(&keys)?;
+        Ok(Self { keys, course: Course::Rates(rates) })
     }
 
     /// The same value at all times.
@@ -134,9 +153,40 @@ impl<T: Keyed> Keyframes<T> {
         }
         let ((start, a), (end, b)) = (self.keys[after - 1], self.keys[after]);
         let duration = end - start;
-        let (part, rate) = self.interpolation.at((time - start) / duration);
-        (a * (1.0 - part) + b * part, (b - a) * (rate / duration))
+        let s = (time - start) / duration;
+        match &self.course {
+            Course::Between(interpolation) => {
+                let (part, rate) = interpolation.at(s);
+                (a * (1.0 - part) + b * part, (b - a) * (rate / duration))
+            }
+            Course::Rates(rates) => {
+                let (leaving, arriving, back) = (rates[after - 1], rates[after], 1.0 - s);
+                let part = s * s * (3.0 - 2.0 * s);
+                let bend = (leaving * back - arriving * s) * (s * back * duration);
+                let rate = (b - a) * (6.0 * s * back / duration);
+                let slope = leaving * (back * (1.0 - 3.0 * s)) + arriving * (s * (3.0 * s - 2.0));
+                (a * (1.0 - part) + b * part + bend, rate + slope)
+            }
+        }
     }
+}
+
+/// Refuses keyframes out of order, or that are not finite.
+fn check<T: Keyed>(keys: &[(f64, T)]) -> Result<(), ProceduralError> {
+    if keys.is_empty() {
+        return Err(ProceduralError::NoKeyframes);
+    }
+    let mut before = f64::NEG_INFINITY;
+    for (index, &(time, value)) in keys.iter().enumerate() {
+        if !time.is_finite() || time <= before {
+            return Err(ProceduralError::KeyTime { index, time });
+        }
+        if !value.is_finite() {
+            return Err(ProceduralError::KeyValue { index });
+        }
+        before = time;
+    }
+    Ok(())
 }
 
 #[cfg(test)]

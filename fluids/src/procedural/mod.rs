@@ -16,7 +16,7 @@
 //! | type | what it does |
 //! | --- | --- |
 //! | [`WeightedSum`] | the sum of parts, each times an [`Amplitude`]: a number, keyframes in time, pulses |
-//! | [`Moving`] | carries a part along a [`Path`] |
+//! | [`Moving`] | carries a part along a [`Path`], given or that of a point in a flow |
 //! | [`Bounded`] | makes potentials flow around a solid: `v = curl(R(distance) psi)` |
 //! | [`AnyPotential`], [`AnyVelocity`] | parts whose types are known only when the program runs |
 //!
@@ -66,6 +66,7 @@
 mod amplitude;
 mod any;
 mod bounded;
+mod carried;
 mod curl_noise;
 mod elliptic;
 mod error;

@@ -91,6 +91,17 @@ fn keyframes_and_pulses() {
     assert!(matches!(new(&[(f64::INFINITY, 1.0)]), Err(ProceduralError::KeyTime { index: 0, .. })));
     assert_eq!(new(&[(0.0, 1.0), (1.0, f64::NAN)]), Err(ProceduralError::KeyValue { index: 1 }));
     assert_eq!(Path::constant(INFINITE), Err(ProceduralError::KeyValue { index: 0 }));
+    let rates = Keyframes::with_rates(&[(0.0, 1.0, 0.0), (1.0, 2.0, f64::NAN)]);
+    assert_eq!(rates, Err(ProceduralError::KeyValue { index: 1 }));
+    assert_eq!(Keyframes::<f64>::with_rates(&[]), Err(ProceduralError::NoKeyframes));
+    let still = |_: DVec3, _: f64| DVec3::ZERO;
+    let carried = |times, steps| Path::carried(&still, DVec3::ZERO, times, steps);
+    assert_eq!(name_of(carried([0.0, 1.0], 0)), "steps");
+    assert_eq!(carried([0.0, 0.0], 3), Err(ProceduralError::KeyTime { index: 1, time: 0.0 }));
+    assert!(matches!(carried([0.0, f64::INFINITY], 3), Err(ProceduralError::KeyTime { .. })));
+    let bursting = |p: DVec3, t: f64| if t > 0.6 { DVec3::INFINITY } else { p };
+    let carried = Path::carried(&bursting, DVec3::ONE, [0.0, 1.0], 2);
+    assert_eq!(carried, Err(ProceduralError::KeyValue { index: 2 }));
     let inf = f64::INFINITY;
     assert_eq!(name_of(Pulse::new(f64::NAN, 0.0, [1.0, 1.0, 1.0], inf)), "height");
     assert_eq!(name_of(Pulse::new(1.0, inf, [1.0, 1.0, 1.0], inf)), "start");

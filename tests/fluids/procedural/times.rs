@@ -31,6 +31,34 @@ fn keyframes_meet_their_values_and_go_straight_or_smoothly() {
     assert_eq!((linear.at(0.0), linear.rate(0.0)), (-0.5, -2.5));
 }
 
+/// In a rotation that speeds up: at keyframes by the error of Runge and Kutta, between them by that of cubic polynomials.
+#[test]
+fn points_are_carried_with_order_four() {
+    let axis = DVec3::new(1.0, -2.0, 2.0) / 3.0;
+    let start = DVec3::new(0.7, 0.1, -0.3);
+    let flow = move |p: DVec3, t: f64| (1.0 + t) * axis.cross(p);
+    let exact = |t: f64| glam::DQuat::from_axis_angle(axis, t + 0.5 * t * t) * start;
+    let errors = [16, 32, 64].map(|steps| {
+        let path = Path::carried(&flow, start, [0.0, 2.0], steps).unwrap();
+        let times = (0..=300).map(|i| f64::from(i) / 150.0);
+        let (mut position, mut velocity): (f64, f64) = (0.0, 0.0);
+        for time in times {
+            let (displacement, rate) = path.value_and_rate(time);
+            position = position.max((start + displacement - exact(time)).length());
+            if time < 2.0 {
+                velocity = velocity.max((rate - flow(exact(time), time)).length());
+            }
+        }
+        [position, velocity]
+    });
+    let order = |k: usize| f64::log2(errors[1][k] / errors[2][k]);
+    println!("errors of positions and velocities {errors:?}: orders {}, {}", order(0), order(1));
+    assert!(order(0) > 3.9 && order(1) > 2.9);
+    let path = Path::carried(&flow, start, [0.0, 2.0], 16).unwrap();
+    assert_eq!((path.at(-1.0), path.rate(-1.0), path.rate(3.0)), (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO));
+    assert_eq!(path.at(5.0), path.at(2.0));
+}
+
 #[test]
 fn pulses_rise_stay_fall_and_come_again() {
     let pulse = Pulse::new(2.0, 1.0, [1.0, 0.5, 0.25], 3.0).unwrap();

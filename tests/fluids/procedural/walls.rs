@@ -18,8 +18,14 @@ fn around<S: ScalarField>(solid: S, width: f64) -> Bounded<impl VectorPotential,
     Bounded::new(mixture(1.0), solid, &parameters).unwrap()
 }
 
-/// Solids, and points on the walls with the normals, away from edges.
-fn walls() -> Vec<(&'static str, AnyField<'static>, Vec<(DVec3, DVec3)>)> {
+/// A solid, with points on its wall away from edges and the normals there.
+struct Wall {
+    name: &'static str,
+    solid: AnyField<'static>,
+    points: Vec<(DVec3, DVec3)>,
+}
+
+fn walls() -> [Wall; 3] {
     let mut random = Random::new(51);
     let ball = Ball { center: DVec3::new(0.2, 0.1, -0.3), radius: 0.5 };
     let on_ball: Vec<_> = points(300, 1.0, 52)
@@ -45,22 +51,22 @@ fn walls() -> Vec<(&'static str, AnyField<'static>, Vec<(DVec3, DVec3)>)> {
         .into_iter()
         .map(|p| (plane.point + p - p.dot(normal) * normal, normal))
         .collect();
-    vec![
-        ("ball", AnyField::new(ball), on_ball),
-        ("cuboid", AnyField::new(cuboid), on_cuboid),
-        ("plane", AnyField::new(plane), on_plane),
+    [
+        Wall { name: "ball", solid: AnyField::new(ball), points: on_ball },
+        Wall { name: "cuboid", solid: AnyField::new(cuboid), points: on_cuboid },
+        Wall { name: "plane", solid: AnyField::new(plane), points: on_plane },
     ]
 }
 
 /// The normal part is the rounding of the position of the wall and of one cross product.
 #[test]
 fn at_walls_the_flow_is_tangential() {
-    for (name, solid, wall) in walls() {
+    for Wall { name, solid, points } in walls() {
         for (kind, flow) in potentials(1.0) {
             let parameters = BoundaryParameters { ramp_width: 0.25, ..Default::default() };
             let bounded = Bounded::new(flow.clone(), solid.clone(), &parameters).unwrap();
             let mut slip: f64 = 0.0;
-            for &(point, normal) in &wall {
+            for &(point, normal) in &points {
                 let free = flow.potential_and_curl(point, 0.7);
                 let velocity = bounded.velocity(point, 0.7);
                 let scale = free.potential.length() / 0.25 + free.curl.length();
@@ -76,9 +82,9 @@ fn at_walls_the_flow_is_tangential() {
 /// On faces whose distance has no rounding nothing at all goes across.
 #[test]
 fn at_axis_parallel_walls_the_normal_part_is_zero() {
-    let (_, cuboid, wall) = walls().remove(1);
-    let bounded = around(cuboid, 0.25);
-    for (point, normal) in wall {
+    let [_, Wall { solid, points, .. }, _] = walls();
+    let bounded = around(solid, 0.25);
+    for (point, normal) in points {
         assert_eq!(bounded.velocity(point, 0.7).dot(normal), 0.0, "{point}");
     }
 }

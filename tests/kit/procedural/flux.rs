@@ -27,7 +27,7 @@ impl Flux {
 
 /// Nodes in (0, 1) and weights that sum to one.
 fn nodes(panels: u32) -> Vec<(f64, f64)> {
-    let rule = SegmentRule::of_degree(31).unwrap();
+    let rule = SegmentRule::of_degree(31).expect("a degree below the highest");
     let width = 1.0 / f64::from(panels);
     let panel =
         |i: u32| rule.points().iter().map(move |&([_, s], w)| ((f64::from(i) + s) * width, w * width));

@@ -35,7 +35,7 @@ impl LineVortex {
     /// A polyline, each segment cut into panels of 32 Gauss points.
     #[must_use]
     pub fn polyline(vertices: &[DVec3], core: f64, circulation: f64, panels: u32) -> Self {
-        let rule = SegmentRule::of_degree(63).unwrap();
+        let rule = SegmentRule::of_degree(63).expect("the highest degree there is");
         let mut elements = Vec::new();
         for pair in vertices.windows(2) {
             let along = (pair[1] - pair[0]) / f64::from(panels);
