@@ -1,5 +1,6 @@
 //! Flow primitives, against quadrature, automatic differentiation and fluxes.
 
+mod boundaries;
 mod divergence;
 mod filaments;
 mod laws;

@@ -29,7 +29,8 @@ pub(super) struct RingIntegrals {
 /// The relative difference of the means at which the next error, its square, is below the rounding.
 const CLOSE: f64 = 1e-8;
 
-/// The relative difference squares in each step; from 2^-200 to 1/2 it takes 8 steps, and 5 from there.
+/// The ratio of the means goes to twice its root in each step while it is small, and the relative difference to an eighth of its square
+/// once that is: from `k'` of 2^-200 it takes 8 steps to come near one, and 5 from there.
 const MOST_STEPS: usize = 16;
 
 impl RingIntegrals {

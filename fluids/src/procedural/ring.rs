@@ -22,8 +22,8 @@
 //! * The same bits on every machine.
 //!
 //! # What it does not promise
-//! Vorticity that ends somewhere: it falls with the fifth power of the distance from the circle. Beyond 2^500 radii the
-//! velocity is zero.
+//! Vorticity that ends somewhere: it falls with the fourth power of the distance from the circle, and faster far away. Beyond
+//! 2^500 radii the velocity is zero.
 //!
 //! # Method
 //! With `z` along the axis, `r` away from it and `A = (axis x x)`, a vector of length `r`, substitute `phi = pi - 2 theta` for the angle
