@@ -8,6 +8,7 @@ use welter_fluids::procedural::{
 };
 use welter_meshing::field::Ball;
 use welter_meshing::shapes::{Sphere, sphere};
+use welter_meshing::surface::measure::signed_volume;
 use welter_tracking::flows::{Advection, Flow, VelocityField};
 use welter_tracking::surface::MovingSurface;
 
@@ -99,6 +100,29 @@ fn linear_keyframes_cost_order_unless_steps_end_on_them() {
     println!("errors {on:?} with the keyframe at the end of a step, {off:?} within one");
     let order = 0.5 * (off[0] / off[1]).log2();
     assert!(on[0] < 1e-14 && on[1] < 1e-14 && (order - 2.0).abs() < 1e-3, "{on:?} {off:?}: {order}");
+}
+
+/// The volume within a surface stays, up to what triangles differ from the surface, which falls with the square of the edge length at least.
+#[test]
+fn volumes_stay_in_flows_without_divergence() {
+    let ball = Ball { center: DVec3::new(0.2, 0.9, 0.0), radius: 0.3 };
+    let parameters = BoundaryParameters { ramp_width: 0.4, anchor: Some(ball.center), path: None };
+    let flow = Advection::new(Bounded::new(mixture(1.0), ball, &parameters).unwrap());
+    let drifts = [0.2, 0.1].map(|edge_length| {
+        let shape = Sphere { radius: 0.5, edge_length, ..Sphere::default() };
+        let mut surface = MovingSurface::new(&sphere(&shape).unwrap()).unwrap();
+        let before = signed_volume(&surface.to_mesh());
+        let vertices: Vec<_> = surface.connectivity().vertices().collect();
+        for i in 0..30 {
+            let ends = flow.advance(&surface, f64::from(i) * 0.01, 0.01).unwrap().ends;
+            for &v in &vertices {
+                surface.set_position(v, ends[v.index()]).unwrap();
+            }
+        }
+        (signed_volume(&surface.to_mesh()) / before - 1.0).abs()
+    });
+    println!("relative volume drifts {drifts:?} at edges of 0.2 and 0.1");
+    assert!(drifts[1] < 0.3 * drifts[0] && drifts[1] < 5e-3, "{drifts:?}");
 }
 
 #[test]
