@@ -1,6 +1,12 @@
 //! Fluids over tracked surfaces and grids: procedural flows, grid smoke, vortex sheets with a fast multipole method,
 //! Voronoi liquid, and a B-spline cut-cell solver.
 //!
+//! # What it promises
+//! * The same scene gives the same bits for any number of threads.
+//!
+//! # What it holds today
+//! * [`volume_rendering`]: the picture of uniform smoke inside a closed surface.
+//!
 //! # What it will promise
 //! * Each solver states what it conserves (circulation, volume, momentum, energy) and reports it every step.
 //! * Convergence orders are stated in the documentation and asserted by tests against analytic solutions.
@@ -14,3 +20,4 @@
 
 pub mod procedural;
 pub mod smoke;
+pub mod volume_rendering;

@@ -4,3 +4,4 @@
 #![allow(clippy::print_stdout, reason = "a test tells its figures")]
 
 mod procedural;
+mod volume_rendering;

@@ -17,6 +17,7 @@ pub mod mesher;
 pub mod moving;
 pub mod procedural;
 pub mod surface;
+pub mod volume_rendering;
 pub mod volumetric;
 
 /// The code in the project's README is compiled and run.

@@ -1,0 +1,83 @@
+//! The picture of smoke inside a closed surface, with solid objects and self-shadowing.
+//!
+//! # What it computes
+//! [`render`] takes a [`Scene`] (the surface of the smoke with the ages of its vertices, solids, camera, light, medium) and [`RenderParameters`], and gives
+//! a [`Picture`]: planes of numbers, not a file. The smoke is of one density inside. For the ray of each pixel:
+//! ```text
+//!   alpha     what the smoke hides:  1 - exp(-extinction thickness)
+//!   scatter   light scattered once toward the eye, shadowed by smoke and solids; from 0 to alpha
+//!   age       mean time since emission along the ray's way through the smoke
+//!   backdrop  what is behind the smoke: solids by Lambert's law with their shadows, the background
+//!   composite albedo (radiance scatter + ambient alpha) + (1 - alpha) backdrop, after a blur by age if asked for
+//! ```
+//! [`voxel_volumes`] gives what the shadow texture is made of: the volume of smoke in each cube of a lattice.
+//!
+//! # What it promises
+//! * A closed surface gives every ray an even number of crossings, entering and leaving in balance, in every position: coverage
+//!   is decided in integers. So no pixel shows a gap or a streak.
+//! * Any surface without boundary has a picture: where it intersects itself or is inside out, an [`InteriorRule`] tells from winding numbers
+//!   what is smoke.
+//! * Alpha and age have the accuracy of the crossings' depths: vertices are placed to 2^-16 pixels. Scatter has that of the shadow texture and
+//!   of the steps along the ray: within 1 % of its maximum of a twin that traces all rays exactly, at the resolutions measured in `tests/fluids/volume_rendering`.
+//! * The same bits for any number of threads, and, with all lengths times a power of two and the extinction divided by it, the same bits too.
+//! * No scene makes it panic; what makes no sense is a typed error. Memory besides the image and the shadow texture is bounded by
+//!   the triangles and a constant for each thread.
+//!
+//! # What it does not promise
+//! * Light scattered more than once, density that varies inside, point lights.
+//! * Smooth edges of solids: a pixel is one ray. Smoke has soft edges by itself, as its thickness goes to zero there.
+//! * A blur that knows depth (see [`AgeBlur`]).
+//!
+//! # Method
+//! \[Brochu12, section 6.6\], each stage a file:
+//! ```text
+//! camera, project, clip    triangles in the image, clipped in front of the eye      [Sutherland74, Blinn77]
+//! raster, crossings        depths at which each ray crosses the surface: A-buffer   [Pineda88, Carpenter84]
+//! resolve                  entering and leaving counted: stretches of smoke
+//! light_space, voxels      volume of smoke in each voxel, by clipping the surface
+//! shadow, occluders        length of smoke along the light; solids seen from the light
+//! scattering               transmittance and single scattering along the stretches  [Max95]
+//! solids                   solid objects: visibility, shade, shadow
+//! blur, composite          softening by age; everything in one picture              [Porter84]
+//! ```
+//!
+//! # Complexity
+//! Linear in the triangles, the crossings of all rays, the samples along them, and the voxels of the texture.
+
+mod blur;
+mod camera;
+mod clip;
+mod composite;
+mod crossings;
+mod error;
+mod exponential;
+mod image;
+mod light_space;
+mod occluders;
+mod parameters;
+mod picture;
+mod pixels;
+mod project;
+mod raster;
+mod resolve;
+mod scattering;
+mod scene;
+mod shadow;
+mod solids;
+mod voxels;
+
+pub use camera::Camera;
+pub use error::RenderError;
+pub use image::Image;
+pub use parameters::{AgeBlur, RenderParameters};
+pub use picture::{Picture, RenderReport, RenderSeconds, VoxelVolumes, render, voxel_volumes};
+pub use scene::{InteriorRule, Light, Medium, Scene, Solid};
+
+/// Most pixels along a side of an image: coordinates of the rasteriser stay below 2^30.
+pub const MAX_SIDE: u32 = 1 << 14;
+
+/// Most pixels of an image: 67 million, whose planes take 2.5 GB.
+pub const MAX_PIXELS: u64 = 1 << 26;
+
+/// Most voxels of a shadow texture: 268 million, which take 5 GB while it is made and 1 GB then.
+pub const MAX_VOXELS: u64 = 1 << 28;

@@ -1,0 +1,253 @@
+//! One picture from the scene to the planes: [`render`].
+
+use std::time::Instant;
+
+use glam::DVec3;
+use welter_meshing::Monitor;
+use welter_meshing::surface::{ClosedOrientedMesh, TriId};
+
+use super::camera::View;
+use super::light_space::Lattice;
+use super::occluders::DepthMap;
+use super::pixels::Studio;
+use super::scattering::Sampling;
+use super::shadow::Shadow;
+use super::solids::Solids;
+use super::{Image, RenderError, RenderParameters, Scene, blur, composite, project, voxels};
+
+/// What is seen, in planes of one size.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Picture {
+    /// Share of what is behind that the smoke hides, from 0 to 1.
+    pub alpha: Image<f32>,
+    /// Light scattered once toward the eye, for light of radiance 1 and smoke of albedo 1; from 0 to alpha.
+    pub scatter: Image<f32>,
+    /// Mean age along the ray's way through the smoke, in the unit of the ages given; 0 where there is no smoke.
+    pub age: Image<f32>,
+    /// Radiance of solids and background behind the smoke (red, green, blue).
+    pub backdrop: Image<[f32; 3]>,
+    /// Radiance of everything (red, green, blue), with alpha and scatter blurred by age if the parameters ask for it.
+    pub composite: Image<[f32; 3]>,
+}
+
+/// What was done for a picture.
+#[must_use]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct RenderReport {
+    /// Triangles of the smoke's surface, or parts of them, that may cover a pixel.
+    pub pieces: usize,
+    /// Crossings of all rays with the smoke's surface.
+    pub crossings: u64,
+    /// Most crossings of one ray.
+    pub most_crossings: usize,
+    /// Pixels whose ray meets the smoke.
+    pub covered_pixels: u64,
+    /// Pixels whose ray starts where the winding number is not 0: all of them if the eye is in the smoke, none if it is outside.
+    pub pixels_from_inside: u64,
+    /// Voxels of the shadow texture along its axes; zeros if there is no smoke.
+    pub shadow_size: [usize; 3],
+    /// Seconds that the stages took.
+    pub seconds: RenderSeconds,
+}
+
+/// Seconds by stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct RenderSeconds {
+    /// Shadow texture, and the map of shadows of solids.
+    pub shadow: f64,
+    /// Triangles into the image.
+    pub projection: f64,
+    /// Crossings, transmittance, scattering, solids.
+    pub pixels: f64,
+    /// Blur by age and composition.
+    pub composition: f64,
+    /// Everything.
+    pub total: f64,
+}
+
+/// The picture of a scene, and what was done for it.
+///
+/// ```
+/// use glam::DVec3;
+/// use welter_fluids::volume_rendering::{Camera, Light, Medium, RenderParameters, Scene, render};
+/// use welter_meshing::{Monitor, shapes::{Sphere, sphere}};
+///
+/// let ball = sphere(&Sphere { edge_length: 0.2, ..Sphere::default() })?;
+/// let scene = Scene {
+///     smoke: &ball,
+///     ages: &[],
+///     solids: &[],
+///     camera: Camera::toward(DVec3::new(0.0, 0.0, 8.0), DVec3::ZERO),
+///     light: Light::default(),
+///     medium: Medium::white(0.5),
+///     background: [0.0; 3],
+/// };
+/// let parameters = RenderParameters { width: 65, height: 65, shadow_resolution: 32, ..Default::default() };
+/// let (picture, report) = render(&scene, &parameters, &Monitor::none())?;
+/// // Through the middle of a ball of radius 1 the optical depth is 0.5 times 2.
+/// assert!((picture.alpha.at(32, 32) - (1.0 - (-1.0_f32).exp())).abs() < 0.01);
+/// assert!(picture.scatter.at(32, 32) < picture.alpha.at(32, 32));
+/// assert_eq!((report.most_crossings, report.pixels_from_inside), (2, 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RenderError`]: parameters or scene out of range, or a cancelled operation.
+pub fn render(
+    scene: &Scene<'_>,
+    parameters: &RenderParameters,
+    monitor: &Monitor<'_>,
+) -> Result<(Picture, RenderReport), RenderError> {
+    parameters.validate()?;
+    scene.validate()?;
+    let start = Instant::now();
+    let scale = scale(scene);
+    let smoke = scene.smoke;
+    let positions: Vec<DVec3> = smoke.positions().iter().map(|&p| p * scale).collect();
+    let extinction = (scene.medium.extinction / scale).min(f64::MAX);
+
+    let shadow = shadow(scene, parameters, &positions, scale, extinction)?;
+    let shadow_size = shadow.lattice().size;
+    monitor.check()?;
+    let shadow_end = start.elapsed().as_secs_f64();
+
+    let view = View::new(&scene.camera, scale, [parameters.width, parameters.height])?;
+    let corners = |t: usize| smoke.triangles()[t].map(|v| v.0);
+    let pieces = project::project(&view, &positions, scene.ages, corners, smoke.triangles().len());
+    let solids = Solids::new(scene, &view, scale);
+    let projection_end = start.elapsed().as_secs_f64();
+
+    let studio = Studio {
+        view,
+        pieces,
+        solids,
+        shadow,
+        extinction,
+        rule: scene.medium.interior,
+        sampling: Sampling::new(parameters),
+        background: scene.background.map(|c| c as f32),
+    };
+    let (planes, counts) = studio.draw(monitor)?;
+    let pixels_end = start.elapsed().as_secs_f64();
+
+    let over = |alpha: &Image<f32>, scatter: &Image<f32>| {
+        composite::composite(alpha, scatter, &planes.backdrop, &scene.light, &scene.medium)
+    };
+    let composite = match &parameters.age_blur {
+        None => over(&planes.alpha, &planes.scatter),
+        Some(blur) => {
+            let (alpha, scatter) = blur::blur(&planes.alpha, &planes.scatter, &planes.age, blur);
+            over(&alpha, &scatter)
+        }
+    };
+    let total = start.elapsed().as_secs_f64();
+    let seconds = RenderSeconds {
+        shadow: shadow_end,
+        projection: projection_end - shadow_end,
+        pixels: pixels_end - projection_end,
+        composition: total - pixels_end,
+        total,
+    };
+    let report = RenderReport {
+        pieces: studio.pieces.len(),
+        crossings: counts.crossings,
+        most_crossings: counts.most_crossings,
+        covered_pixels: counts.covered,
+        pixels_from_inside: counts.inside,
+        shadow_size,
+        seconds,
+    };
+    let (alpha, scatter, age, backdrop) = (planes.alpha, planes.scatter, planes.age, planes.backdrop);
+    Ok((Picture { alpha, scatter, age, backdrop, composite }, report))
+}
+
+/// The power of two by which coordinates are multiplied so that the largest is from 1/2 to 1, as far as there is one.
+///
+/// So no sum or product of coordinates overflows, and lengths times a power of two give the same numbers.
+fn scale(scene: &Scene<'_>) -> f64 {
+    let of_solids = scene.solids.iter().flat_map(|solid| solid.mesh.positions());
+    let points = scene.smoke.positions().iter().chain(of_solids).chain([&scene.camera.eye]);
+    let largest = points.fold(0.0_f64, |largest, p| largest.max(p.abs().max_element()));
+    let (_, exponent) = libm::frexp(largest);
+    libm::ldexp(1.0, (-exponent).clamp(-1022, 1023))
+}
+
+fn corners_of(smoke: &ClosedOrientedMesh, positions: &[DVec3]) -> Vec<[DVec3; 3]> {
+    smoke.triangles().iter().map(|t| t.map(|v| positions[v.index()])).collect()
+}
+
+fn shadow(
+    scene: &Scene<'_>,
+    parameters: &RenderParameters,
+    positions: &[DVec3],
+    scale: f64,
+    extinction: f64,
+) -> Result<Shadow, RenderError> {
+    let corners = corners_of(scene.smoke, positions);
+    let light = scene.light.direction;
+    let lattice =
+        Lattice::enclosing(corners.iter().flatten().copied(), light, parameters.shadow_resolution)?;
+    let triangles = |mesh: &welter_meshing::surface::TriMesh| {
+        let count = mesh.triangles().len();
+        (0..count).map(|t| mesh.corners(TriId::from_index(t)).map(|p| p * scale)).collect::<Vec<_>>()
+    };
+    let solids: Vec<[DVec3; 3]> = scene.solids.iter().flat_map(|solid| triangles(solid.mesh)).collect();
+    let map = DepthMap::new(&lattice, &solids, parameters.solid_shadow_resolution);
+    Ok(Shadow::new(lattice, &corners, map, extinction, scene.medium.interior))
+}
+
+/// The volume of smoke in each cube of a lattice: [`voxel_volumes`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct VoxelVolumes {
+    /// Unit vectors along which the cubes stand in rows, the last the way of the light.
+    pub axes: [DVec3; 3],
+    /// The corner of the lattice with the least coordinates along the axes, as these coordinates.
+    pub origin: DVec3,
+    /// Side of a cube; 0 if there is none.
+    pub spacing: f64,
+    /// Cubes along each axis.
+    pub size: [usize; 3],
+    /// The integral of the winding number over each cube; cubes along the last axis stand together, then those along the first.
+    pub volumes: Vec<f64>,
+}
+
+/// The integral of the winding number of a surface over each cube of a lattice that encloses it, aligned with a light, with `resolution` cubes
+/// along its longest side (from 1 to 4096): the volume inside, of an embedded surface. Exact up to rounding.
+///
+/// ```
+/// use glam::DVec3;
+/// use welter_fluids::volume_rendering::voxel_volumes;
+/// use welter_meshing::shapes::{Box_, box_};
+/// let smoke = box_(&Box_ { min: DVec3::ZERO, max: DVec3::new(4.0, 2.0, 1.0), edge_length: 1.0 })?;
+/// let voxels = voxel_volumes(&smoke, DVec3::NEG_Z, 2)?;
+/// assert_eq!(voxels.size.iter().product::<usize>(), 2);
+/// assert_eq!(voxels.volumes, [4.0, 4.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RenderError`]: no direction, too many voxels.
+pub fn voxel_volumes(
+    smoke: &ClosedOrientedMesh,
+    light: DVec3,
+    resolution: u32,
+) -> Result<VoxelVolumes, RenderError> {
+    RenderError::require_finite("the direction of the light", light)?;
+    let fits = (1..=4096).contains(&resolution);
+    RenderError::require(fits, "resolution", f64::from(resolution), "from 1 to 4096")?;
+    let corners = corners_of(smoke, smoke.positions());
+    let lattice = Lattice::enclosing(corners.iter().flatten().copied(), light, resolution)?;
+    let mut volumes = Vec::new();
+    if !lattice.is_empty() {
+        let placed: Vec<_> = corners.iter().map(|t| t.map(|p| lattice.place_inside(p))).collect();
+        volumes = voxels::volumes(&placed, lattice.size);
+    }
+    let cube = lattice.spacing * lattice.spacing * lattice.spacing;
+    volumes.iter_mut().for_each(|volume| *volume *= cube);
+    let Lattice { axes, origin, spacing, size } = lattice;
+    Ok(VoxelVolumes { axes, origin, spacing, size, volumes })
+}

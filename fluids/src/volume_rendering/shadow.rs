@@ -1,0 +1,205 @@
+//! How much of the light arrives: the shadow texture of the smoke, and the map of shadows of solids.
+//!
+//! # What it computes
+//! The texture holds, at the face of each voxel that the light leaves by and at those it first enters by, the length of smoke that
+//! the light has passed, as the mean over the face. It is linear between the two faces of a voxel, which is right for a
+//! voxel of one density, and linear between the middles of columns. The share of the light that arrives is
+//! `exp(-extinction length)`. Solids are drawn into a depth map along the light; a point beyond its solid is dark.
+//!
+//! # What it does not promise
+//! An exact shadow: the length in a voxel that the surface cuts is a mean. The error of a picture falls with the
+//! second power of the voxel where the surface is smooth, as `tests/fluids/volume_rendering` measures. Edges of shadows of solids are as wide as a texel.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::exponential::exp_of_minus;
+use super::light_space::Lattice;
+use super::occluders::DepthMap;
+use super::{InteriorRule, voxels};
+
+/// Points of which the light is looked up together, so that the arithmetic is that of vectors.
+pub(super) const LANES: usize = 8;
+
+/// Lengths of smoke along the light, and solids before it.
+#[derive(Debug)]
+pub(super) struct Shadow {
+    lattice: Lattice,
+    texture: Texture,
+    solids: Option<DepthMap>,
+    /// Optical depth of a voxel full of smoke.
+    optical_depth: f32,
+}
+
+impl Shadow {
+    /// The texture of smoke with a surface and an extinction, in scaled coordinates.
+    pub(super) fn new(
+        lattice: Lattice,
+        corners: &[[DVec3; 3]],
+        solids: Option<DepthMap>,
+        extinction: f64,
+        rule: InteriorRule,
+    ) -> Self {
+        let placed: Vec<[DVec3; 3]> = if lattice.is_empty() {
+            Vec::new()
+        } else {
+            corners.par_iter().with_min_len(4096).map(|t| t.map(|p| lattice.place_inside(p))).collect()
+        };
+        let volumes = voxels::volumes(&placed, lattice.size);
+        let texture = Texture::new(&volumes, lattice.size, rule);
+        let optical_depth = (extinction * lattice.spacing).min(f64::from(f32::MAX)) as f32;
+        Self { lattice, texture, solids, optical_depth }
+    }
+
+    pub(super) fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// The share of the light that arrives at points of the smoke, in lattice coordinates (all first ones, then all second ones, ...).
+    #[inline]
+    pub(super) fn transmittances(&self, at: &[[f32; LANES]; 3]) -> [f32; LANES] {
+        let mut shares = self.texture.lengths(at).map(|length| exp_of_minus(self.optical_depth * length));
+        if let Some(map) = &self.solids {
+            for lane in 0..LANES {
+                shares[lane] *= map.lit([at[0][lane], at[1][lane], at[2][lane]]);
+            }
+        }
+        shares
+    }
+
+    /// The share of the light that the smoke lets through to a point anywhere, in scaled coordinates.
+    pub(super) fn transmittance_of_smoke(&self, point: DVec3) -> f32 {
+        if self.lattice.is_empty() {
+            return 1.0;
+        }
+        let p = self.lattice.place(point);
+        let [nx, ny, _] = self.lattice.size.map(|n| n as f64);
+        if !(0.0..=nx).contains(&p.x) || !(0.0..=ny).contains(&p.y) || p.z.is_nan() {
+            return 1.0;
+        }
+        let [length] = self.texture.lengths(&[[p.x as f32], [p.y as f32], [p.z as f32]]);
+        exp_of_minus(self.optical_depth * length)
+    }
+}
+
+/// Voxels of smoke that the light has passed, at the faces of the voxels.
+///
+/// There is a column more on each side, equal to its neighbour, and a face more at the end of each column, so that
+/// no coordinate needs a case of its own.
+#[derive(Debug)]
+struct Texture {
+    /// Faces of a column along the light together, then columns along the first axis.
+    lengths: Vec<f32>,
+    size: [usize; 3],
+}
+
+impl Texture {
+    fn new(volumes: &[f64], size: [usize; 3], rule: InteriorRule) -> Self {
+        let [nx, ny, nz] = size;
+        if volumes.is_empty() {
+            return Self { lengths: Vec::new(), size };
+        }
+        let faces = nz + 2;
+        let mut lengths = vec![0.0; (nx + 2) * (ny + 2) * faces];
+        lengths.par_chunks_mut((nx + 2) * faces).enumerate().for_each(|(row, lengths)| {
+            let j = row.clamp(1, ny) - 1;
+            for (column, lengths) in lengths.chunks_mut(faces).enumerate() {
+                let i = column.clamp(1, nx) - 1;
+                let volumes = &volumes[(j * nx + i) * nz..][..nz];
+                let mut passed = 0.0;
+                for (length, &volume) in lengths[1..].iter_mut().zip(volumes) {
+                    passed += rule.density(volume);
+                    *length = passed as f32;
+                }
+                lengths[nz + 1] = passed as f32;
+            }
+        });
+        Self { lengths, size }
+    }
+
+    /// Voxels of smoke before points, in lattice coordinates; those outside are moved to the border.
+    #[inline]
+    fn lengths<const N: usize>(&self, at: &[[f32; N]; 3]) -> [f32; N] {
+        let [nx, ny, nz] = self.size.map(|n| n as f32);
+        let (row, faces) = ((self.size[0] + 2) as u32, (self.size[2] + 2) as u32);
+        let (mut nodes, mut parts) = ([0_u32; N], [[0.0_f32; N]; 3]);
+        for lane in 0..N {
+            let (i, u) = node(at[0][lane] + 0.5, 0.5, nx + 0.5);
+            let (j, v) = node(at[1][lane] + 0.5, 0.5, ny + 0.5);
+            let (k, w) = node(at[2][lane], 0.0, nz);
+            nodes[lane] = (j * row + i) * faces + k;
+            (parts[0][lane], parts[1][lane], parts[2][lane]) = (u, v, w);
+        }
+        let mut corners = [[0.0_f32; N]; 8];
+        let steps = [0, faces, row * faces, (row + 1) * faces];
+        for lane in 0..N {
+            for (column, step) in steps.into_iter().enumerate() {
+                let first = (nodes[lane] + step) as usize;
+                let pair = &self.lengths[first..first + 2];
+                (corners[2 * column][lane], corners[2 * column + 1][lane]) = (pair[0], pair[1]);
+            }
+        }
+        std::array::from_fn(|lane| {
+            let along = |column: usize| mix(corners[2 * column][lane], corners[2 * column + 1][lane], parts[2][lane]);
+            let upper = mix(along(0), along(1), parts[0][lane]);
+            let lower = mix(along(2), along(3), parts[0][lane]);
+            mix(upper, lower, parts[1][lane])
+        })
+    }
+}
+
+#[inline]
+fn mix(a: f32, b: f32, part: f32) -> f32 {
+    a + part * (b - a)
+}
+
+/// A node next to a coordinate that is moved between two bounds, and the part of the way to the next, from 0 to 1.
+#[inline]
+fn node(coordinate: f32, least: f32, most: f32) -> (u32, f32) {
+    // Adding 2^23 rounds to an integer, which then is in the last bits. A node itself may count as the end of the interval before.
+    const ROUND: f32 = 8_388_608.0;
+    let inside = coordinate.max(least).min(most);
+    let shifted = (inside - 0.5).max(0.0) + ROUND;
+    (shifted.to_bits() - ROUND.to_bits(), inside - (shifted - ROUND))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texture(volumes: &[f64], size: [usize; 3]) -> Shadow {
+        let lattice = Lattice {
+            axes: [DVec3::X, DVec3::Y, DVec3::Z],
+            origin: DVec3::ZERO,
+            spacing: 1.0,
+            size,
+        };
+        let texture = Texture::new(volumes, size, InteriorRule::NonZero);
+        Shadow { lattice, texture, solids: None, optical_depth: 1.0 }
+    }
+
+    #[test]
+    fn lengths_are_linear_along_the_light_and_between_columns() {
+        let shadow = texture(&[1.0, 0.5, 0.0, 0.0], [2, 1, 2]);
+        for (at, length) in [
+            ([0.5, 0.5, 0.0], 0.0),
+            ([0.5, 0.5, 0.25], 0.25),
+            ([0.0, 0.9, 1.5], 1.25),
+            ([0.5, 0.5, 2.0], 1.5),
+            ([0.5, 0.5, 7.0], 1.5),
+            ([1.0, 0.5, 1.0], 0.5),
+            ([1.9, 0.5, 2.0], 0.0),
+        ] {
+            assert_eq!(shadow.texture.lengths(&at.map(|c: f32| [c])), [length], "{at:?}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_shadowed_beside_the_smoke() {
+        let shadow = texture(&[1.0; 8], [2; 3]);
+        assert_eq!(shadow.transmittance_of_smoke(DVec3::new(-0.1, 1.0, 2.0)), 1.0);
+        assert_eq!(shadow.transmittance_of_smoke(DVec3::new(1.0, 1.0, -5.0)), 1.0);
+        let behind = shadow.transmittance_of_smoke(DVec3::new(1.0, 1.0, 9.0));
+        assert!((behind - (-2.0_f32).exp()).abs() < 1e-6);
+    }
+}
