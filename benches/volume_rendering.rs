@@ -55,7 +55,7 @@ fn main() {
         smoke: &smoke,
         ages: &ages,
         solids: &[],
-        camera: Camera::toward(DVec3::new(-1.9, 0.6, 1.7), DVec3::ZERO),
+        camera: Camera::toward(DVec3::new(-1.5, 0.4, 1.3), DVec3::ZERO),
         light: Light { direction: DVec3::NEG_Z, ..Light::default() },
         medium: Medium::white(extinction),
         background: [0.0; 3],

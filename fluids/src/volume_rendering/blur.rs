@@ -6,7 +6,7 @@
 //!
 //! # What it promises
 //! The sums of alpha and of scatter over the image stay, up to rounding in single precision: a pixel's weights add up to 1 also where the image
-//! ends. Where the deviation is everywhere the same, the blur is the Gaussian blur, cut at four deviations. The same bits for any number
+//! ends. Where the deviation is everywhere the same, the blur is the Gaussian blur, cut at three deviations. The same bits for any number
 //! of threads.
 //!
 //! # What it does not promise
@@ -25,17 +25,11 @@ use rayon::prelude::*;
 
 use super::{AgeBlur, Image};
 
-/// A pixel on its way.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Splat {
-    alpha: f32,
-    scatter: f32,
-    /// The deviation in pixels, times alpha.
-    deviation: f32,
-}
+/// A pixel on its way: alpha, scatter, the deviation in pixels times alpha, and nothing, so that it is a vector of four.
+type Splat = [f32; 4];
 
-/// Deviations where the kernel is cut: what lies beyond is 6e-5 of it.
-const CUT: f32 = 4.0;
+/// Deviations where the kernel is cut: what lies beyond is 0.3 % of it.
+const CUT: f32 = 3.0;
 
 /// Below this deviation, in pixels, a neighbour's weight is below 2^-24 and the pixel stays as it is.
 const SHARP: f32 = 0.17;
@@ -48,11 +42,11 @@ pub(super) fn blur(
     parameters: &AgeBlur,
 ) -> (Image<f32>, Image<f32>) {
     let (width, height) = (alpha.width(), alpha.height());
-    let mut splats = Image::filled(width, height, Splat::default());
+    let mut splats = Image::filled(width, height, [0.0; 4]);
     splats.pixels_mut().par_iter_mut().with_min_len(1024).enumerate().for_each(|(at, splat)| {
         let [alpha, scatter, age] = [alpha, scatter, age].map(|plane| plane.pixels()[at]);
         let deviation = parameters.deviation(f64::from(age), height) as f32;
-        *splat = Splat { alpha, scatter, deviation: deviation * alpha };
+        *splat = [alpha, scatter, deviation * alpha, 0.0];
     });
     let splats = spread_rows(&spread_rows(&splats).transposed()).transposed();
     let plane = |value: fn(&Splat) -> f32| {
@@ -61,12 +55,12 @@ pub(super) fn blur(
         pairs.for_each(|(pixel, splat)| *pixel = value(splat));
         plane
     };
-    (plane(|splat| splat.alpha), plane(|splat| splat.scatter))
+    (plane(|splat| splat[0]), plane(|splat| splat[1]))
 }
 
 fn spread_rows(image: &Image<Splat>) -> Image<Splat> {
     let width = image.width();
-    let mut result = Image::filled(width, image.height(), Splat::default());
+    let mut result = Image::filled(width, image.height(), [0.0; 4]);
     let rows = result.pixels_mut().par_chunks_mut(width.max(1)).zip(image.pixels().par_chunks(width.max(1)));
     rows.for_each_init(Vec::new, |weights, (to, from)| {
         for (at, splat) in from.iter().enumerate() {
@@ -78,10 +72,10 @@ fn spread_rows(image: &Image<Splat>) -> Image<Splat> {
 
 /// Adds a pixel to its neighbours in a row.
 fn spread(splat: &Splat, at: usize, row: &mut [Splat], weights: &mut Vec<f32>) {
-    if splat.alpha <= 0.0 {
+    if splat[0] <= 0.0 {
         return;
     }
-    let deviation = splat.deviation / splat.alpha;
+    let deviation = splat[2] / splat[0];
     if deviation.is_nan() || deviation < SHARP {
         add(&mut row[at], splat, 1.0);
         return;
@@ -89,30 +83,32 @@ fn spread(splat: &Splat, at: usize, row: &mut [Splat], weights: &mut Vec<f32>) {
     let reach = (deviation * CUT).ceil() as usize;
     gaussian(deviation, reach, weights);
     let (left, right) = (at.saturating_sub(reach), (at + reach).min(row.len() - 1));
-    let weight = |to: usize| weights[to.abs_diff(at)];
-    let whole: f32 = (left..=right).map(weight).sum();
-    let part = 1.0 / whole;
-    for (offset, pixel) in row[left..=right].iter_mut().enumerate() {
-        add(pixel, splat, weight(left + offset) * part);
+    let weights = &weights[left + reach - at..=right + reach - at];
+    let part = 1.0 / weights.iter().sum::<f32>();
+    let whole = splat.map(|value| value * part);
+    for (pixel, &weight) in row[left..=right].iter_mut().zip(weights) {
+        add(pixel, &whole, weight);
     }
 }
 
 #[inline]
 fn add(pixel: &mut Splat, splat: &Splat, weight: f32) {
-    pixel.alpha += weight * splat.alpha;
-    pixel.scatter += weight * splat.scatter;
-    pixel.deviation += weight * splat.deviation;
+    for k in 0..4 {
+        pixel[k] += weight * splat[k];
+    }
 }
 
-/// `exp(-k^2 / (2 d^2))` for k from 0 to `reach`, by products: each is the last times a factor that itself falls by a constant one.
+/// `exp(-k^2 / (2 d^2))` for k from `-reach` to `reach`, by products: each is the last times a factor that itself falls by a constant one.
 fn gaussian(deviation: f32, reach: usize, weights: &mut Vec<f32>) {
     let half = 0.5 / (f64::from(deviation) * f64::from(deviation));
     let mut factor = libm::exp(-half);
     let ratio = factor * factor;
     let mut weight = 1.0;
     weights.clear();
-    for _ in 0..=reach {
-        weights.push(weight as f32);
+    weights.resize(2 * reach + 1, 0.0);
+    for k in 0..=reach {
+        weights[reach + k] = weight as f32;
+        weights[reach - k] = weight as f32;
         weight *= factor;
         factor *= ratio;
     }
@@ -126,8 +122,9 @@ mod tests {
     fn weights_are_those_of_a_gaussian() {
         let mut weights = Vec::new();
         gaussian(7.5, 30, &mut weights);
+        assert_eq!(weights.len(), 61);
         for (k, &weight) in weights.iter().enumerate() {
-            let exact = libm::exp(-(k as f64 / 7.5).powi(2) / 2.0);
+            let exact = libm::exp(-((k as f64 - 30.0) / 7.5).powi(2) / 2.0);
             assert!((f64::from(weight) - exact).abs() < 1e-7, "{k}: {weight} {exact}");
         }
     }

@@ -129,7 +129,10 @@ mod tests {
     #[test]
     fn cameras_without_a_view_are_refused() {
         let camera = Camera::toward(DVec3::new(0.0, 3.0, 0.0), DVec3::ZERO);
-        assert!(matches!(camera.validate(), Err(RenderError::Direction { name: "the upward direction", .. })));
+        assert!(matches!(
+            camera.validate(),
+            Err(RenderError::Direction { name: "the upward direction", .. })
+        ));
         let camera = Camera::toward(DVec3::ONE, DVec3::ONE);
         assert!(matches!(camera.validate(), Err(RenderError::Direction { name: "the target", .. })));
         for bad in [0.0, f64::NAN, 3.2] {

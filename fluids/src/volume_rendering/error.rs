@@ -38,8 +38,8 @@ pub enum RenderError {
         /// Ages given.
         ages: usize,
     },
-    /// An age is not a finite number from 0 on.
-    #[error("the age of vertex {vertex} is {age}, must be finite and not below 0")]
+    /// An age is not a number from 0 to the largest of single precision.
+    #[error("the age of vertex {vertex} is {age}, must be from 0 to {}", f32::MAX)]
     Age {
         /// Which vertex; the first.
         vertex: usize,
@@ -83,11 +83,10 @@ impl RenderError {
         bad.map_or(Ok(()), |value| Err(RenderError::Parameter { name, value, must: "finite" }))
     }
 
-    /// Refuses a colour with a component that is negative or not finite.
+    /// Refuses a color with a component out of range. Products of two fit into single precision.
     pub(super) fn require_color(name: &'static str, color: [f64; 3]) -> Result<(), RenderError> {
-        let bad = color.into_iter().find(|c| !(0.0..=f64::MAX).contains(c));
-        bad.map_or(Ok(()), |value| {
-            Err(RenderError::Parameter { name, value, must: "finite and not below 0" })
-        })
+        const MOST: f64 = (1_u64 << 40) as f64;
+        let bad = color.into_iter().find(|c| !(0.0..=MOST).contains(c));
+        bad.map_or(Ok(()), |value| Err(RenderError::Parameter { name, value, must: "from 0 to 2^40" }))
     }
 }

@@ -64,14 +64,16 @@ mod scattering;
 mod scene;
 mod shadow;
 mod solids;
+mod voxel_volumes;
 mod voxels;
 
 pub use camera::Camera;
 pub use error::RenderError;
 pub use image::Image;
 pub use parameters::{AgeBlur, RenderParameters};
-pub use picture::{Picture, RenderReport, RenderSeconds, VoxelVolumes, render, voxel_volumes};
+pub use picture::{Picture, RenderReport, RenderSeconds, render};
 pub use scene::{InteriorRule, Light, Medium, Scene, Solid};
+pub use voxel_volumes::{VoxelVolumes, voxel_volumes};
 
 /// Most pixels along a side of an image: coordinates of the rasteriser stay below 2^30.
 pub const MAX_SIDE: u32 = 1 << 14;
@@ -79,5 +81,5 @@ pub const MAX_SIDE: u32 = 1 << 14;
 /// Most pixels of an image: 67 million, whose planes take 2.5 GB.
 pub const MAX_PIXELS: u64 = 1 << 26;
 
-/// Most voxels of a shadow texture: 268 million, which take 5 GB while it is made and 1 GB then.
+/// Most voxels of a shadow texture: 268 million, which take 3.3 GB while it is made and 1.1 GB then.
 pub const MAX_VOXELS: u64 = 1 << 28;

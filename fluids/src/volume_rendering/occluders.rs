@@ -91,9 +91,9 @@ fn pieces(lattice: &Lattice, triangle: &[DVec3; 3], texels: u32) -> Vec<Piece> {
     let [nx, ny, nz] = lattice.size.map(|n| n as f64);
     let placed = triangle.map(|p| lattice.place(p));
     let far = placed.iter().all(|p| p.z >= nz);
-    let beside = [(0, nx), (1, ny)].into_iter().any(|(axis, end)| {
-        placed.iter().all(|p| p[axis] <= 0.0) || placed.iter().all(|p| p[axis] >= end)
-    });
+    let beside = [(0, nx), (1, ny)]
+        .into_iter()
+        .any(|(axis, end)| placed.iter().all(|p| p[axis] <= 0.0) || placed.iter().all(|p| p[axis] >= end));
     if far || beside {
         return Vec::new();
     }

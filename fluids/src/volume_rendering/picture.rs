@@ -13,7 +13,7 @@ use super::pixels::Studio;
 use super::scattering::Sampling;
 use super::shadow::Shadow;
 use super::solids::Solids;
-use super::{Image, RenderError, RenderParameters, Scene, blur, composite, project, voxels};
+use super::{Image, RenderError, RenderParameters, Scene, blur, composite, project};
 
 /// What is seen, in planes of one size.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,13 +104,16 @@ pub fn render(
     parameters.validate()?;
     scene.validate()?;
     let start = Instant::now();
-    let scale = scale(scene);
     let smoke = scene.smoke;
+    let of_solids = scene.solids.iter().flat_map(|solid| solid.mesh.positions());
+    let scale = scale_of(smoke.positions().iter().chain(of_solids).chain([&scene.camera.eye]));
     let positions: Vec<DVec3> = smoke.positions().iter().map(|&p| p * scale).collect();
     let extinction = (scene.medium.extinction / scale).min(f64::MAX);
 
+    let stage = monitor.stage("shadow texture", 1);
     let shadow = shadow(scene, parameters, &positions, scale, extinction)?;
     let shadow_size = shadow.lattice().size;
+    stage.advance(1);
     monitor.check()?;
     let shadow_end = start.elapsed().as_secs_f64();
 
@@ -167,15 +170,13 @@ pub fn render(
 /// The power of two by which coordinates are multiplied so that the largest is from 1/2 to 1, as far as there is one.
 ///
 /// So no sum or product of coordinates overflows, and lengths times a power of two give the same numbers.
-fn scale(scene: &Scene<'_>) -> f64 {
-    let of_solids = scene.solids.iter().flat_map(|solid| solid.mesh.positions());
-    let points = scene.smoke.positions().iter().chain(of_solids).chain([&scene.camera.eye]);
+pub(super) fn scale_of<'p>(points: impl Iterator<Item = &'p DVec3>) -> f64 {
     let largest = points.fold(0.0_f64, |largest, p| largest.max(p.abs().max_element()));
     let (_, exponent) = libm::frexp(largest);
     libm::ldexp(1.0, (-exponent).clamp(-1022, 1023))
 }
 
-fn corners_of(smoke: &ClosedOrientedMesh, positions: &[DVec3]) -> Vec<[DVec3; 3]> {
+pub(super) fn corners_of(smoke: &ClosedOrientedMesh, positions: &[DVec3]) -> Vec<[DVec3; 3]> {
     smoke.triangles().iter().map(|t| t.map(|v| positions[v.index()])).collect()
 }
 
@@ -188,8 +189,7 @@ fn shadow(
 ) -> Result<Shadow, RenderError> {
     let corners = corners_of(scene.smoke, positions);
     let light = scene.light.direction;
-    let lattice =
-        Lattice::enclosing(corners.iter().flatten().copied(), light, parameters.shadow_resolution)?;
+    let lattice = Lattice::enclosing(corners.iter().flatten().copied(), light, parameters.shadow_resolution)?;
     let triangles = |mesh: &welter_meshing::surface::TriMesh| {
         let count = mesh.triangles().len();
         (0..count).map(|t| mesh.corners(TriId::from_index(t)).map(|p| p * scale)).collect::<Vec<_>>()
@@ -197,57 +197,4 @@ fn shadow(
     let solids: Vec<[DVec3; 3]> = scene.solids.iter().flat_map(|solid| triangles(solid.mesh)).collect();
     let map = DepthMap::new(&lattice, &solids, parameters.solid_shadow_resolution);
     Ok(Shadow::new(lattice, &corners, map, extinction, scene.medium.interior))
-}
-
-/// The volume of smoke in each cube of a lattice: [`voxel_volumes`].
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct VoxelVolumes {
-    /// Unit vectors along which the cubes stand in rows, the last the way of the light.
-    pub axes: [DVec3; 3],
-    /// The corner of the lattice with the least coordinates along the axes, as these coordinates.
-    pub origin: DVec3,
-    /// Side of a cube; 0 if there is none.
-    pub spacing: f64,
-    /// Cubes along each axis.
-    pub size: [usize; 3],
-    /// The integral of the winding number over each cube; cubes along the last axis stand together, then those along the first.
-    pub volumes: Vec<f64>,
-}
-
-/// The integral of the winding number of a surface over each cube of a lattice that encloses it, aligned with a light, with `resolution` cubes
-/// along its longest side (from 1 to 4096): the volume inside, of an embedded surface. Exact up to rounding.
-///
-/// ```
-/// use glam::DVec3;
-/// use welter_fluids::volume_rendering::voxel_volumes;
-/// use welter_meshing::shapes::{Box_, box_};
-/// let smoke = box_(&Box_ { min: DVec3::ZERO, max: DVec3::new(4.0, 2.0, 1.0), edge_length: 1.0 })?;
-/// let voxels = voxel_volumes(&smoke, DVec3::NEG_Z, 2)?;
-/// assert_eq!(voxels.size.iter().product::<usize>(), 2);
-/// assert_eq!(voxels.volumes, [4.0, 4.0]);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// [`RenderError`]: no direction, too many voxels.
-pub fn voxel_volumes(
-    smoke: &ClosedOrientedMesh,
-    light: DVec3,
-    resolution: u32,
-) -> Result<VoxelVolumes, RenderError> {
-    RenderError::require_finite("the direction of the light", light)?;
-    let fits = (1..=4096).contains(&resolution);
-    RenderError::require(fits, "resolution", f64::from(resolution), "from 1 to 4096")?;
-    let corners = corners_of(smoke, smoke.positions());
-    let lattice = Lattice::enclosing(corners.iter().flatten().copied(), light, resolution)?;
-    let mut volumes = Vec::new();
-    if !lattice.is_empty() {
-        let placed: Vec<_> = corners.iter().map(|t| t.map(|p| lattice.place_inside(p))).collect();
-        volumes = voxels::volumes(&placed, lattice.size);
-    }
-    let cube = lattice.spacing * lattice.spacing * lattice.spacing;
-    volumes.iter_mut().for_each(|volume| *volume *= cube);
-    let Lattice { axes, origin, spacing, size } = lattice;
-    Ok(VoxelVolumes { axes, origin, spacing, size, volumes })
 }

@@ -2,6 +2,8 @@
 //!
 //! A pixel depends on nothing but its own ray, so the picture does not depend on the bands or the threads.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use welter_meshing::{Cancelled, Monitor};
 
@@ -70,6 +72,12 @@ struct Band<'a> {
     backdrop: &'a mut [[f32; 3]],
 }
 
+/// Which of all pieces, by their first rows and those after their last, may cover some rows.
+fn meeting(all_rows: &[[u32; 2]], rows: &Range<u32>) -> Vec<u32> {
+    let all = (0_u32..).zip(all_rows);
+    all.filter(|(_, [start, end])| *start < rows.end && *end > rows.start).map(|(index, _)| index).collect()
+}
+
 impl Studio<'_> {
     pub(super) fn draw(&self, monitor: &Monitor<'_>) -> Result<(Planes, Counts), Cancelled> {
         let (width, height) = (self.view.width as usize, self.view.height as usize);
@@ -77,6 +85,9 @@ impl Studio<'_> {
         let backdrop = Image::filled(width, height, self.background);
         let mut planes = Planes { alpha: plane(), scatter: plane(), age: plane(), backdrop };
         let chunk = width * BAND;
+        let all_rows = [&self.pieces, self.solids.pieces()].map(|pieces: &[Piece]| {
+            pieces.iter().map(|piece| piece.footprint.window().y).map(|rows| [rows.start, rows.end]).collect()
+        });
         let bands = planes.alpha.pixels_mut().par_chunks_mut(chunk);
         let bands = bands.zip(planes.scatter.pixels_mut().par_chunks_mut(chunk));
         let bands = bands.zip(planes.age.pixels_mut().par_chunks_mut(chunk));
@@ -84,7 +95,8 @@ impl Studio<'_> {
         let stage = monitor.stage("pixels", height.div_ceil(BAND) as u64);
         let draw = |(index, (((alpha, scatter), age), backdrop))| {
             stage.check()?;
-            let counts = self.draw_band(Band { first: index * BAND, alpha, scatter, age, backdrop });
+            let counts =
+                self.draw_band(Band { first: index * BAND, alpha, scatter, age, backdrop }, &all_rows);
             stage.advance(1);
             Ok(counts)
         };
@@ -94,14 +106,10 @@ impl Studio<'_> {
         Ok((planes, counts))
     }
 
-    fn draw_band(&self, mut band: Band<'_>) -> Counts {
+    fn draw_band(&self, mut band: Band<'_>, all_rows: &[Vec<[u32; 2]>; 2]) -> Counts {
         let width = self.view.width as usize;
         let rows = band.first as u32..(band.first + band.alpha.len() / width) as u32;
-        let meeting = |pieces: &[Piece]| -> Vec<u32> {
-            let all = (0_u32..).zip(pieces);
-            all.filter(|(_, piece)| piece.footprint.meets_rows(&rows)).map(|(index, _)| index).collect()
-        };
-        let (smoke, solids) = (meeting(&self.pieces), meeting(self.solids.pieces()));
+        let (smoke, solids) = (meeting(&all_rows[0], &rows), meeting(&all_rows[1], &rows));
         let mut counts = Counts::default();
         if smoke.is_empty() && solids.is_empty() {
             return counts;

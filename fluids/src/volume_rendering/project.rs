@@ -43,7 +43,8 @@ impl Piece {
     /// Depth and value at weights of the corners.
     #[inline]
     pub(super) fn at(&self, weights: [f64; 3]) -> (f64, f64) {
-        let sum = |values: &[f64; 3]| weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2];
+        let sum =
+            |values: &[f64; 3]| weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2];
         let depth = 1.0 / sum(&self.inverse_depth);
         (depth, depth * sum(&self.value_over_depth))
     }
@@ -173,7 +174,8 @@ mod tests {
     fn triangles_around_the_eye_are_cut_before_it() {
         let view = view();
         // Below the eye and through the plane of the eye, to infinity for the image.
-        let positions = [DVec3::new(-9.0, -1.0, 5.0), DVec3::new(9.0, -1.0, 5.0), DVec3::new(0.0, -1.0, -50.0)];
+        let positions =
+            [DVec3::new(-9.0, -1.0, 5.0), DVec3::new(9.0, -1.0, 5.0), DVec3::new(0.0, -1.0, -50.0)];
         let pieces = project(&view, &positions, &[], |_| [0, 1, 2], 1);
         assert!(!pieces.is_empty());
         let mut rows = [0; 30];

@@ -46,7 +46,8 @@ pub(super) struct Window {
 
 impl Window {
     pub(super) fn area(&self) -> u64 {
-        u64::from(self.x.end.saturating_sub(self.x.start)) * u64::from(self.y.end.saturating_sub(self.y.start))
+        u64::from(self.x.end.saturating_sub(self.x.start))
+            * u64::from(self.y.end.saturating_sub(self.y.start))
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -217,8 +218,9 @@ mod tests {
         for round in 0..400 {
             // Few different places, so that samples lie on edges and corners, and triangles have no area.
             let grain = [1 << 14, 1 << 15, 3, 1][round % 4];
-            let mut corner =
-                || [random(&mut state) % (45 << 15), random(&mut state) % (35 << 15)].map(|v| v / grain * grain);
+            let mut corner = || {
+                [random(&mut state) % (45 << 15), random(&mut state) % (35 << 15)].map(|v| v / grain * grain)
+            };
             let [a, b, c, d] = [corner(), corner(), corner(), corner()];
             let tetrahedron = [[a, c, b], [a, b, d], [b, c, d], [c, a, d]];
             assert!(counts(&tetrahedron).iter().all(|&count| count == 0), "{tetrahedron:?}");
@@ -230,12 +232,14 @@ mod tests {
     fn wide_triangles_are_covered_as_narrow_ones() {
         let mut state = 7;
         for _ in 0..200 {
-            let mut corner = || [random(&mut state) % (60 << 15) - (9 << 15), random(&mut state) % (40 << 15)];
+            let mut corner =
+                || [random(&mut state) % (60 << 15) - (9 << 15), random(&mut state) % (40 << 15)];
             let corners = [corner(), corner(), corner()];
             let Some(footprint) = Footprint::new(corners, SIZE) else { continue };
             let (mut whole, mut parts) = (Vec::new(), Vec::new());
-            footprint
-                .cover(&Window { x: 0..SIZE[0], y: 0..SIZE[1] }, |x, y, w| whole.push((y, x, w.map(f64::to_bits))));
+            footprint.cover(&Window { x: 0..SIZE[0], y: 0..SIZE[1] }, |x, y, w| {
+                whole.push((y, x, w.map(f64::to_bits)))
+            });
             for left in (0..SIZE[0]).step_by(3) {
                 let strip = Window { x: left..left + 3, y: 0..SIZE[1] };
                 footprint.cover(&strip, |x, y, w| parts.push((y, x, w.map(f64::to_bits))));

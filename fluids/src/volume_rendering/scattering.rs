@@ -102,7 +102,10 @@ impl Travelled {
         sampling: &Sampling,
     ) -> f64 {
         let length = far - near;
+        // No stretch is longer than the lattice, but by rounding where it is a speck for the eye.
+        let [nx, ny, nz] = shadow.lattice().size;
         let voxels = length * ray.direction.iter().map(|d| d * d).sum::<f64>().sqrt();
+        let voxels = voxels.min((nx + ny + nz) as f64);
         let steps = (optical_depth / sampling.optical_step).max(voxels).ceil().max(1.0);
         let (step, depth_step) = (optical_depth / steps, length / steps);
         // Where in a step the mean place of the scattered light is: 1 / t - 1 / (exp(t) - 1), whose next term is below 3e-5 t.
@@ -114,8 +117,14 @@ impl Travelled {
         let (mut sum, mut weight) = (0.0_f32, 1.0_f32);
         let steps = steps as u32;
         for block in (0..steps).step_by(LANES) {
-            let places: [f32; LANES] = std::array::from_fn(|lane| (block + lane as u32) as f32);
-            let light = shadow.transmittances(&[0, 1, 2].map(|k| places.map(|along| start[k] + along * stride[k])));
+            let mut at = [[0.0; LANES]; 3];
+            for lane in 0..LANES {
+                let along = (block + lane as u32) as f32;
+                for k in 0..3 {
+                    at[k][lane] = start[k] + along * stride[k];
+                }
+            }
+            let light = shadow.transmittances(&at);
             for &light in light.iter().take((steps - block) as usize) {
                 sum += weight * light;
                 weight *= passed;

@@ -10,7 +10,8 @@ use super::{Camera, RenderError};
 pub struct Scene<'a> {
     /// The surface that encloses the smoke. It may intersect itself and be inside out; [`InteriorRule`] tells what is smoke.
     pub smoke: &'a ClosedOrientedMesh,
-    /// Time since emission, one number a vertex of `smoke`, finite and from 0 on; or empty, which means 0 everywhere.
+    /// Time since emission, one number a vertex of `smoke`, from 0 to the largest of single precision; or empty,
+    /// which means 0 everywhere.
     pub ages: &'a [f64],
     /// What is not smoke.
     pub solids: &'a [Solid<'a>],
@@ -20,7 +21,7 @@ pub struct Scene<'a> {
     pub light: Light,
     /// What the smoke is like.
     pub medium: Medium,
-    /// Radiance seen where nothing is (red, green, blue), each finite and from 0 on.
+    /// Radiance seen where nothing is (red, green, blue), each from 0 to 2^40.
     pub background: [f64; 3],
 }
 
@@ -34,7 +35,7 @@ impl Scene<'_> {
         if !self.ages.is_empty() && self.ages.len() != vertices {
             return Err(RenderError::AgeCount { vertices, ages: self.ages.len() });
         }
-        if let Some(vertex) = self.ages.iter().position(|age| !(0.0..=f64::MAX).contains(age)) {
+        if let Some(vertex) = self.ages.iter().position(|age| !(0.0..=f64::from(f32::MAX)).contains(age)) {
             return Err(RenderError::Age { vertex, age: self.ages[vertex] });
         }
         for solid in self.solids {
@@ -52,7 +53,7 @@ impl Scene<'_> {
 pub struct Solid<'a> {
     /// Its surface.
     pub mesh: &'a TriMesh,
-    /// Share of the light that it throws back (red, green, blue), each finite and from 0 on; from 0 to 1 for a real one.
+    /// Share of the light that it throws back (red, green, blue), each from 0 to 2^40; from 0 to 1 for a real one.
     pub albedo: [f64; 3],
 }
 
@@ -64,9 +65,9 @@ pub struct Light {
     /// The way the light travels; any length but zero.
     pub direction: DVec3,
     /// What a white diffuse surface that faces the light shows of it, and what smoke without shadow and of infinite optical
-    /// depth shows of it (red, green, blue); each finite and from 0 on.
+    /// depth shows of it (red, green, blue); each from 0 to 2^40.
     pub radiance: [f64; 3],
-    /// The same of light that comes from everywhere and is shadowed by nothing (red, green, blue); each finite and from 0 on.
+    /// The same of light that comes from everywhere and is shadowed by nothing (red, green, blue); each from 0 to 2^40.
     pub ambient: [f64; 3],
 }
 
@@ -120,7 +121,9 @@ impl Medium {
         let fits = (0.0..=f64::MAX).contains(&extinction);
         RenderError::require(fits, "extinction", extinction, "finite and not below 0")?;
         let bad = self.albedo.into_iter().find(|a| !(0.0..=1.0).contains(a));
-        bad.map_or(Ok(()), |value| RenderError::require(false, "the albedo of the smoke", value, "from 0 to 1"))
+        bad.map_or(Ok(()), |value| {
+            RenderError::require(false, "the albedo of the smoke", value, "from 0 to 1")
+        })
     }
 }
 

@@ -22,9 +22,8 @@ fn the_alpha_of_a_ball_is_that_of_its_chords() {
             let ray = tracer.ray(size, [x, y]);
             let to_middle = DVec3::new(0.3, -0.2, 0.1) - scene.camera.eye;
             let square = (to_middle - to_middle.dot(ray) * ray).length_squared();
-            let alpha_of = |radius: f64| {
-                1.0 - (-extinction * 2.0 * (radius * radius - square).max(0.0).sqrt()).exp()
-            };
+            let alpha_of =
+                |radius: f64| 1.0 - (-extinction * 2.0 * (radius * radius - square).max(0.0).sqrt()).exp();
             let alpha = f64::from(*picture.alpha.at(x as usize, y as usize));
             let (least, most) = (alpha_of(1.0 - edge * edge / 6.0), alpha_of(1.0));
             assert!(least - 1e-6 <= alpha && alpha <= most + 1e-6, "{x} {y}: {least} {alpha} {most}");
@@ -44,7 +43,8 @@ fn the_alpha_of_a_ball_is_that_of_its_chords() {
 fn a_slab_lit_along_the_sight() {
     let extinction = 0.8;
     let slab =
-        box_(&Box_ { min: DVec3::new(-2.0, -2.0, -1.0), max: DVec3::new(2.0, 2.0, 0.5), edge_length: 1.0 }).unwrap();
+        box_(&Box_ { min: DVec3::new(-2.0, -2.0, -1.0), max: DVec3::new(2.0, 2.0, 0.5), edge_length: 1.0 })
+            .unwrap();
     let eye = DVec3::new(0.0, 0.0, 400.0);
     let scene = Scene {
         camera: Camera { vertical_field_of_view: 0.008, ..Camera::toward(eye, DVec3::ZERO) },
@@ -74,7 +74,7 @@ fn thin_smoke_scatters_what_it_hides() {
     let ball = ball(DVec3::ZERO, 1.0, 0.2);
     let (picture, _) = drawn(&scene(&ball, 1e-6), &parameters(40, 30, 16));
     for (alpha, scatter) in picture.alpha.pixels().iter().zip(picture.scatter.pixels()) {
-        assert!(scatter <= alpha && (alpha - scatter).abs() < 1e-5 * alpha, "{alpha} {scatter}");
+        assert!(scatter <= alpha && (alpha - scatter).abs() <= 1e-5 * alpha, "{alpha} {scatter}");
     }
 }
 
@@ -82,7 +82,8 @@ fn thin_smoke_scatters_what_it_hides() {
 #[test]
 fn ages_are_linear_along_a_ray() {
     let slab =
-        box_(&Box_ { min: DVec3::new(-2.0, -2.0, -1.0), max: DVec3::new(2.0, 2.0, 0.5), edge_length: 0.5 }).unwrap();
+        box_(&Box_ { min: DVec3::new(-2.0, -2.0, -1.0), max: DVec3::new(2.0, 2.0, 0.5), edge_length: 0.5 })
+            .unwrap();
     let ages: Vec<f64> = slab.positions().iter().map(|p| 10.0 + 2.0 * p.x - p.z).collect();
     let eye = DVec3::new(0.0, 0.0, 6.0);
     let scene = Scene { ages: &ages, camera: Camera::toward(eye, DVec3::ZERO), ..scene(&slab, 1.0) };

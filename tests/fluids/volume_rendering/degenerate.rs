@@ -4,7 +4,8 @@ use super::{ball, drawn, moved, parameters, scene, together};
 use glam::DVec3;
 use std::sync::atomic::AtomicBool;
 use welter_fluids::volume_rendering::{
-    AgeBlur, Camera, Light, MAX_SIDE, Medium, RenderError, RenderParameters, Scene, Solid, render, voxel_volumes,
+    AgeBlur, Camera, Light, MAX_SIDE, Medium, RenderError, RenderParameters, Scene, Solid, render,
+    voxel_volumes,
 };
 use welter_meshing::Monitor;
 use welter_meshing::surface::{ClosedOrientedMesh, TriMesh, TriangleSoup};
@@ -52,7 +53,8 @@ fn an_eye_in_the_smoke_sees_from_there() {
 fn surfaces_around_behind_and_through_the_eye() {
     let shell = together(vec![ball(DVec3::ZERO, 3.0, 0.5), ball(DVec3::ZERO, 2.0, 0.5).reversed()]);
     // In the hollow: each ray goes through the shell once.
-    let camera = Camera { vertical_field_of_view: 3.0, ..Camera::toward(DVec3::ZERO, DVec3::new(0.3, 0.1, -1.0)) };
+    let camera =
+        Camera { vertical_field_of_view: 3.0, ..Camera::toward(DVec3::ZERO, DVec3::new(0.3, 0.1, -1.0)) };
     let (picture, report) = drawn(&Scene { camera, ..scene(&shell, 1.0) }, &parameters(31, 31, 16));
     assert_eq!((report.pixels_from_inside, report.most_crossings), (0, 2));
     let through = 1.0 - (-1.0_f32).exp();
@@ -119,9 +121,8 @@ fn extreme_numbers_have_pictures() {
 fn crowded_tiles_are_divided() {
     let slab = |k: usize| {
         let z = k as f64 * 1e-3;
-        let [low, high] = [z, z + 5e-4].map(|z| {
-            [[-9.0, -9.0, z], [9.0, -9.0, z], [9.0, 9.0, z], [-9.0, 9.0, z]].map(DVec3::from_array)
-        });
+        let [low, high] = [z, z + 5e-4]
+            .map(|z| [[-9.0, -9.0, z], [9.0, -9.0, z], [9.0, 9.0, z], [-9.0, 9.0, z]].map(DVec3::from_array));
         let positions = [low, high].concat();
         let quads = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
         let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
@@ -157,7 +158,10 @@ fn what_makes_no_sense_is_refused() {
         assert_eq!(parameter(error), "the albedo of a solid");
         let blurred = RenderParameters { age_blur: Some(AgeBlur::new(bad)), ..fits };
         assert_eq!(parameter(refused(&good, &blurred)), "spread_rel");
-        assert_eq!(parameter(refused(&good, &RenderParameters { optical_step: bad, ..fits })), "optical_step");
+        assert_eq!(
+            parameter(refused(&good, &RenderParameters { optical_step: bad, ..fits })),
+            "optical_step"
+        );
         assert_eq!(parameter(refused(&good, &RenderParameters { dark: bad, ..fits })), "dark");
         let mut ages = vec![0.0; ball.positions().len()];
         ages[7] = bad;

@@ -3,7 +3,9 @@
 use super::{ball, difference, drawn, moved, parameters, scene, together};
 use glam::DVec3;
 use rayon::ThreadPoolBuilder;
-use welter_fluids::volume_rendering::{AgeBlur, Camera, Image, InteriorRule, Light, RenderParameters, Scene, Solid};
+use welter_fluids::volume_rendering::{
+    AgeBlur, Camera, Image, InteriorRule, Light, RenderParameters, Scene, Solid,
+};
 use welter_meshing::shapes::{Torus, torus, trefoil_overlap};
 use welter_meshing::surface::ClosedOrientedMesh;
 
@@ -100,7 +102,8 @@ fn a_turned_camera_gives_a_turned_picture() {
     // Clockwise, so that the picture turns counterclockwise.
     let mut rolled = upright;
     rolled.camera.up = DVec3::X;
-    let ((a, _), (b, _)) = (drawn(&upright, &parameters(81, 81, 32)), drawn(&rolled, &parameters(81, 81, 32)));
+    let ((a, _), (b, _)) =
+        (drawn(&upright, &parameters(81, 81, 32)), drawn(&rolled, &parameters(81, 81, 32)));
     for (before, after) in [(&a.alpha, &b.alpha), (&a.scatter, &b.scatter), (&a.age, &b.age)] {
         let error = difference(&turned(before), after);
         assert!(error < 1e-6, "{error}");

@@ -63,7 +63,8 @@ impl<'a> Tracer<'a> {
         let hits = rays::crossings(&self.smoke, point, self.to_light);
         let places: Vec<f64> =
             std::iter::once(0.0).chain(hits.iter().map(|h| h.t).filter(|&t| t > 0.0)).collect();
-        let part = |pair: &[f64]| (pair[1] - pair[0]) * self.density(winding_at(&hits, 0.5 * (pair[0] + pair[1])));
+        let part =
+            |pair: &[f64]| (pair[1] - pair[0]) * self.density(winding_at(&hits, 0.5 * (pair[0] + pair[1])));
         places.windows(2).map(part).sum()
     }
 
@@ -96,7 +97,9 @@ impl<'a> Tracer<'a> {
 
     fn age_of(&self, hit: &Hit) -> f64 {
         let triangle = self.scene.smoke.triangles()[hit.triangle];
-        (0..3).map(|k| hit.weights[k] * self.scene.ages.get(triangle[k].index()).copied().unwrap_or(0.0)).sum()
+        (0..3)
+            .map(|k| hit.weights[k] * self.scene.ages.get(triangle[k].index()).copied().unwrap_or(0.0))
+            .sum()
     }
 
     /// A pixel, with so many steps in each stretch of smoke.
