@@ -1,11 +1,12 @@
-//! Benchmark: the volume renderer at the size of the figure of \[Brochu12, section 6.7\], 126,000 triangles at 1600 x 1200 pixels with a
-//! shadow texture of 167 x 125 x 82 voxels, by stages.
+//! Benchmark: the volume renderer at the size of the figure of \[Brochu12, section 6.7\], 126,000 triangles
+//! at 1600 x 1200 pixels with a shadow texture of 167 x 125 x 82 voxels, by stages.
 //!
 //! ```text
 //! cargo bench -p welter-benches --bench volume_rendering [-- THREADS]
 //! ```
-//! THREADS sizes the pool (default 2). The smoke is of seven lumpy balls that overlap, seen from the side, with ages and a blur by them;
-//! once thin, so that rays are sampled all through, once dense. Times are of the run with the least total of [`RUNS`].
+//! THREADS sizes the pool (default 2). The smoke is of seven lumpy balls that overlap, seen from the side,
+//! with ages and a blur by them; once thin, so that rays are sampled all through, once dense. Times are of
+//! the run with the least total of [`RUNS`].
 
 #![allow(clippy::print_stdout)] // a report is what a benchmark is for
 

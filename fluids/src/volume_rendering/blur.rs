@@ -1,22 +1,22 @@
 //! Blur of old smoke across the picture.
 //!
 //! # What it computes
-//! Each pixel of smoke is spread by a Gaussian whose standard deviation follows from its age ([`AgeBlur`]), so that old smoke
-//! is soft and young smoke sharp.
+//! Each pixel of smoke is spread by a Gaussian whose standard deviation follows from its age ([`AgeBlur`]),
+//! so that old smoke is soft and young smoke sharp.
 //!
 //! # What it promises
-//! The sums of alpha and of scatter over the image stay, up to rounding in single precision: a pixel's weights add up to 1 also where the image
-//! ends. Where the deviation is everywhere the same, the blur is the Gaussian blur, cut at three deviations. The same bits for any number
-//! of threads.
+//! The sums of alpha and of scatter over the image stay, up to rounding in single precision: a pixel's
+//! weights add up to 1 also where the image ends. Where the deviation is everywhere the same, the blur is the
+//! Gaussian blur, cut at three deviations. The same bits for any number of threads.
 //!
 //! # What it does not promise
-//! Depth: smoke beside a solid also spreads over it, whether before or behind; layers of several ages spread by their mean.
-//! Nor alpha up to 1: where old smoke spreads over young smoke that hides everything, the sums of both exceed 1. The composite then takes the background as
-//! hidden.
+//! Depth: smoke beside a solid also spreads over it, whether before or behind; layers of several ages spread
+//! by their mean. Nor alpha up to 1: where old smoke spreads over young smoke that hides everything, the sums
+//! of both exceed 1. The composite then takes the background as hidden.
 //!
 //! # Method
-//! Each row, then each column: a pixel adds its value, times the weights, to its neighbours. In the second pass a pixel's
-//! deviation is the mean of those that came to it, by alpha.
+//! Each row, then each column: a pixel adds its value, times the weights, to its neighbours. In the second
+//! pass a pixel's deviation is the mean of those that came to it, by alpha.
 //!
 //! # Complexity
 //! Pixels with smoke times the deviation in pixels.
@@ -25,7 +25,8 @@ use rayon::prelude::*;
 
 use super::{AgeBlur, Image};
 
-/// A pixel on its way: alpha, scatter, the deviation in pixels times alpha, and nothing, so that it is a vector of four.
+/// A pixel on its way: alpha, scatter, the deviation in pixels times alpha, and nothing, so that it is a
+/// vector of four.
 type Splat = [f32; 4];
 
 /// Deviations where the kernel is cut: what lies beyond is 0.3 % of it.
@@ -98,7 +99,8 @@ fn add(pixel: &mut Splat, splat: &Splat, weight: f32) {
     }
 }
 
-/// `exp(-k^2 / (2 d^2))` for k from `-reach` to `reach`, by products: each is the last times a factor that itself falls by a constant one.
+/// `exp(-k^2 / (2 d^2))` for k from `-reach` to `reach`, by products: each is the last times a factor that
+/// itself falls by a constant one.
 fn gaussian(deviation: f32, reach: usize, weights: &mut Vec<f32>) {
     let half = 0.5 / (f64::from(deviation) * f64::from(deviation));
     let mut factor = libm::exp(-half);

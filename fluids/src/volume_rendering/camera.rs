@@ -1,7 +1,8 @@
 //! From where the scene is seen: [`Camera`], and the [`View`] made of it.
 //!
-//! A pinhole camera with square pixels. The ray of pixel `(i, j)`, column and row from the top left, goes from the eye through the middle
-//! of the pixel. Everything in front of the eye is seen, however near: there is no near plane.
+//! A pinhole camera with square pixels. The ray of pixel `(i, j)`, column and row from the top left, goes
+//! from the eye through the middle of the pixel. Everything in front of the eye is seen, however near: there
+//! is no near plane.
 
 use glam::DVec3;
 
@@ -29,7 +30,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera with y upward and a field of view of 40 degrees, as of a lens of 50 mm before 35 mm film upright.
+    /// A camera with y upward and a field of view of 40 degrees, as of a lens of 50 mm before 35 mm film
+    /// upright.
     #[must_use]
     pub fn toward(eye: DVec3, target: DVec3) -> Self {
         Self { eye, target, up: DVec3::Y, vertical_field_of_view: 40.0_f64.to_radians() }

@@ -1,7 +1,7 @@
 //! Convex polygons cut by planes \[Sutherland74\].
 //!
-//! The point at which an edge meets a plane is computed from its end inside to its end outside, so that the two
-//! polygons on an edge get the same point, bit for bit.
+//! The point at which an edge meets a plane is computed from its end inside to its end outside, so that the
+//! two polygons on an edge get the same point, bit for bit.
 
 use glam::DVec3;
 
@@ -12,7 +12,8 @@ pub(super) struct Corner {
     pub(super) value: f64,
 }
 
-/// Most corners. Cutting a polygon of n corners, convex or not, leaves at most n + n/2; six cuts of a triangle at most 28.
+/// Most corners. Cutting a polygon of n corners, convex or not, leaves at most n + n/2; six cuts of a
+/// triangle at most 28.
 const CAPACITY: usize = 28;
 
 /// Most cuts of a triangle for which there is room.
@@ -44,8 +45,8 @@ impl Polygon {
         self.corners[..other.count].copy_from_slice(other.corners());
     }
 
-    /// What lies where `distance`, which is linear, is above 0. A corner at 0 is outside. Each corner that is made is
-    /// passed to `settle`, which may move it onto the plane where rounding has left it beside.
+    /// What lies where `distance`, which is linear, is above 0. A corner at 0 is outside. Each corner that is
+    /// made is passed to `settle`, which may move it onto the plane where rounding has left it beside.
     #[inline]
     pub(super) fn cut(
         &self,

@@ -1,13 +1,13 @@
 //! The depths at which the ray of a pixel crosses surfaces: an A-buffer \[Carpenter84\], tile by tile.
 //!
 //! # What it promises
-//! Every crossing of every pixel's ray, with its direction, in the order of depth, and of equal depths in the order of the triangles. The number of crossings
-//! held at a time is bounded by [`MOST`] or, where the ray of a single pixel has more, by the triangles; whatever the size of
-//! the image.
+//! Every crossing of every pixel's ray, with its direction, in the order of depth, and of equal depths in the
+//! order of the triangles. The number of crossings held at a time is bounded by [`MOST`] or, where the ray of
+//! a single pixel has more, by the triangles; whatever the size of the image.
 //!
 //! # Method
-//! A tile whose pixels may be covered too often, by the bounding boxes of the triangles, is halved; others are rasterised,
-//! crossings sorted to pixels by counting, and by depth within each.
+//! A tile whose pixels may be covered too often, by the bounding boxes of the triangles, is halved; others
+//! are rasterised, crossings sorted to pixels by counting, and by depth within each.
 
 use super::project::Piece;
 use super::raster::Window;
@@ -37,7 +37,8 @@ pub(super) struct Crossings {
     ends: Vec<u32>,
 }
 
-/// Calls `visit` with each tile into which a window has to be divided, and the pieces that may cover it, ascending.
+/// Calls `visit` with each tile into which a window has to be divided, and the pieces that may cover it,
+/// ascending.
 pub(super) fn divide(
     window: &Window,
     pieces: &[Piece],

@@ -1,21 +1,14 @@
 //! `exp(-x)` in single precision, for the light at the samples of a ray.
 //!
-//! Promises: relative error below `(1 + x) 2^-22` for x from 0 to 86, constant beyond; the same bits everywhere: additions,
-//! multiplications and shifts only.
+//! Promises: relative error below `(1 + x) 2^-22` for x from 0 to 86, constant beyond; the same bits
+//! everywhere: additions, multiplications and shifts only.
 //!
-//! Method: `2^n 2^f` with `f` from -1/2 to 1/2, the second by its Taylor polynomial of degree 6, of which the next term is
-//! below `(ln 2 / 2)^7 / 7! = 1.2e-7`.
+//! Method: `2^n 2^f` with `f` from -1/2 to 1/2, the second by its Taylor polynomial of degree 6, of which the
+//! next term is below `(ln 2 / 2)^7 / 7! = 1.2e-7`.
 
 /// Coefficients of `2^f`: powers of `ln 2` over factorials.
-const TAYLOR: [f32; 7] = [
-    1.0,
-    std::f32::consts::LN_2,
-    0.240_226_51,
-    0.055_504_11,
-    0.009_618_129,
-    0.001_333_355_8,
-    0.000_154_035_3,
-];
+const TAYLOR: [f32; 7] =
+    [1.0, std::f32::consts::LN_2, 0.240_226_5, 0.055_504_11, 0.009_618_129, 0.001_333_355_8, 0.000_154_035_3];
 
 /// Arguments are taken as no larger: `exp(-86)` is 4e-38, next to the least normal number.
 const LARGEST: f32 = 86.0;

@@ -1,7 +1,8 @@
 //! The lattice of the shadow texture: cubes in rows along the light.
 //!
-//! Its third axis is the way of the light; the first two are at right angles to it, the first also to the axis of the scene that is
-//! most nearly so. It begins at the least coordinates of the smoke along these axes. In lattice coordinates a voxel has side 1.
+//! Its third axis is the way of the light; the first two are at right angles to it, the first also to the
+//! axis of the scene that is most nearly so. It begins at the least coordinates of the smoke along these
+//! axes. In lattice coordinates a voxel has side 1.
 
 use glam::DVec3;
 
@@ -22,7 +23,8 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice of `resolution` voxels along the longest side of the box, aligned with the light, of some points.
+    /// The lattice of `resolution` voxels along the longest side of the box, aligned with the light, of some
+    /// points.
     pub(super) fn enclosing(
         points: impl Iterator<Item = DVec3>,
         light: DVec3,

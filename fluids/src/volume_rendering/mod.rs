@@ -1,8 +1,9 @@
 //! The picture of smoke inside a closed surface, with solid objects and self-shadowing.
 //!
 //! # What it computes
-//! [`render`] takes a [`Scene`] (the surface of the smoke with the ages of its vertices, solids, camera, light, medium) and [`RenderParameters`], and gives
-//! a [`Picture`]: planes of numbers, not a file. The smoke is of one density inside. For the ray of each pixel:
+//! [`render`] takes a [`Scene`] (the surface of the smoke with the ages of its vertices, solids, camera,
+//! light, medium) and [`RenderParameters`], and gives a [`Picture`]: planes of numbers, not a file. The smoke
+//! is of one density inside. For the ray of each pixel:
 //! ```text
 //!   alpha     what the smoke hides:  1 - exp(-extinction thickness)
 //!   scatter   light scattered once toward the eye, shadowed by smoke and solids; from 0 to alpha
@@ -13,19 +14,22 @@
 //! [`voxel_volumes`] gives what the shadow texture is made of: the volume of smoke in each cube of a lattice.
 //!
 //! # What it promises
-//! * A closed surface gives every ray an even number of crossings, entering and leaving in balance, in every position: coverage
-//!   is decided in integers. So no pixel shows a gap or a streak.
-//! * Any surface without boundary has a picture: where it intersects itself or is inside out, an [`InteriorRule`] tells from winding numbers
-//!   what is smoke.
-//! * Alpha and age have the accuracy of the crossings' depths: vertices are placed to 2^-16 pixels. Scatter has that of the shadow texture and
-//!   of the steps along the ray: within 1 % of its maximum of a twin that traces all rays exactly, at the resolutions measured in `tests/fluids/volume_rendering`.
-//! * The same bits for any number of threads, and, with all lengths times a power of two and the extinction divided by it, the same bits too.
-//! * No scene makes it panic; what makes no sense is a typed error. Memory besides the image and the shadow texture is bounded by
-//!   the triangles and a constant for each thread.
+//! * A ray crosses a closed surface into the inside as often as out of it, in every position of both, if the
+//!   eye is outside: coverage is decided in integers. So no pixel shows a gap or a streak.
+//! * Any surface without boundary has a picture: where it intersects itself or is inside out, an
+//!   [`InteriorRule`] tells from winding numbers what is smoke.
+//! * Alpha and age have the accuracy of the crossings' depths: vertices are placed to 2^-16 pixels. Scatter
+//!   has that of the shadow texture and of the steps along the ray: within 1 % of its maximum of a twin that
+//!   traces all rays exactly, at the resolutions measured in `tests/fluids/volume_rendering`.
+//! * The same bits for any number of threads, and, with all lengths times a power of two and the extinction
+//!   divided by it, the same bits too.
+//! * No scene makes it panic; what makes no sense is a typed error. Memory besides the image and the shadow
+//!   texture is bounded by the triangles and a constant for each thread.
 //!
 //! # What it does not promise
 //! * Light scattered more than once, density that varies inside, point lights.
-//! * Smooth edges of solids: a pixel is one ray. Smoke has soft edges by itself, as its thickness goes to zero there.
+//! * Smooth edges of solids: a pixel is one ray. Smoke has soft edges by itself, as its thickness goes to
+//!   zero there.
 //! * A blur that knows depth (see [`AgeBlur`]).
 //!
 //! # Method
@@ -78,7 +82,7 @@ pub use voxel_volumes::{VoxelVolumes, voxel_volumes};
 /// Most pixels along a side of an image: coordinates of the rasteriser stay below 2^30.
 pub const MAX_SIDE: u32 = 1 << 14;
 
-/// Most pixels of an image: 67 million, whose planes take 2.5 GB.
+/// Most pixels of an image: 67 million, whose planes take 2.4 GB, and 3.2 GB more while they are blurred.
 pub const MAX_PIXELS: u64 = 1 << 26;
 
 /// Most voxels of a shadow texture: 268 million, which take 3.3 GB while it is made and 1.1 GB then.

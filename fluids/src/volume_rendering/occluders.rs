@@ -1,7 +1,8 @@
 //! Shadows of solids on the smoke: the depth along the light of the first solid, a [`DepthMap`].
 //!
-//! Texels subdivide the columns of the shadow texture. A texel holds the depth of the first triangle that covers its middle, by
-//! the rule of the rasteriser; between texels the answer lit or not is interpolated, not the depth.
+//! Texels subdivide the columns of the shadow texture. A texel holds the depth of the first triangle that
+//! covers its middle, by the rule of the rasteriser; between texels the answer lit or not is interpolated,
+//! not the depth.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -24,16 +25,19 @@ pub(super) struct DepthMap {
 }
 
 impl DepthMap {
-    /// The map of triangles in scaled coordinates; none if none of them can cast a shadow on the smoke. Texels are larger than asked for where a
-    /// side would have more than [`MAX_SIDE`] of them.
+    /// The map of triangles in scaled coordinates; none if none of them can cast a shadow on the smoke.
+    /// Texels are larger than asked for where a side would have more than [`MAX_SIDE`] of them.
     pub(super) fn new(lattice: &Lattice, triangles: &[[DVec3; 3]], texels: u32) -> Option<Self> {
         if lattice.is_empty() || triangles.is_empty() {
             return None;
         }
         // Voxels along a side are at most 4096, a quarter of the most texels.
         let texels = texels.min(MAX_SIDE / lattice.size[0].max(lattice.size[1]) as u32);
-        let pieces: Vec<Piece> =
-            triangles.iter().flat_map(|triangle| pieces(lattice, triangle, texels)).collect();
+        let pieces: Vec<Piece> = triangles
+            .par_iter()
+            .with_min_len(1024)
+            .flat_map_iter(|triangle| pieces(lattice, triangle, texels))
+            .collect();
         if pieces.is_empty() {
             return None;
         }

@@ -9,17 +9,19 @@ pub struct RenderParameters {
     pub width: u32,
     /// Rows of pixels, from 1 to [`MAX_SIDE`]. Default: 540.
     pub height: u32,
-    /// Voxels of the shadow texture along the longest side of the smoke, as seen from the light; from 1 to 4096. Voxels are
-    /// cubes, so this sets the other sides. Default: 128, between the sides of the texture of \[Brochu12, section 6.7\].
+    /// Voxels of the shadow texture along the longest side of the smoke, as seen from the light; from 1 to
+    /// 4096. Voxels are cubes, so this sets the other sides. Default: 128, between the sides of the texture
+    /// of \[Brochu12, section 6.7\].
     pub shadow_resolution: u32,
-    /// Texels of the map of shadows that solids cast, along a side of a voxel; from 1 to 16. Default: 4: an edge of such a shadow is
-    /// a quarter of a voxel wide, and the map is smaller than the texture.
+    /// Texels of the map of shadows that solids cast, along a side of a voxel; from 1 to 16. Default: 4: an
+    /// edge of such a shadow is a quarter of a voxel wide, and the map is smaller than the texture.
     pub solid_shadow_resolution: u32,
-    /// Most optical depth between two samples of the light along a ray; they are also at most a voxel apart. From 2^-10 to 1.
-    /// Default: 1/4: what the light of a sample misses is below (1/4)^2 / 24 of it where light falls off at that rate too.
+    /// Most optical depth between two samples of the light along a ray; they are also at most a voxel apart.
+    /// From 2^-10 to 1. Default: 1/4: what the light of a sample misses is below (1/4)^2 / 24 of it where
+    /// light falls off at that rate too.
     pub optical_step: f64,
-    /// Part of the light from beyond that no longer needs samples of its own: what lies deeper gets the light of the last
-    /// sample. From 2^-30 to 1/2. Default: 2^-12, below a step of an 8-bit image.
+    /// Part of the light from beyond that no longer needs samples of its own: what lies deeper gets the light
+    /// of the last sample. From 2^-30 to 1/2. Default: 2^-12, below a step of an 8-bit image.
     pub dark: f64,
     /// Blur of old smoke. Default: none.
     pub age_blur: Option<AgeBlur>,
@@ -68,14 +70,15 @@ impl RenderParameters {
 
 /// How smoke is blurred as it ages: as if it diffused across the picture \[Brochu12, section 6.6\].
 ///
-/// The standard deviation of the blur is `spread_rel` times the height of the image times the square root of the age, as that
-/// of a diffusing substance is, and at most `most_rel` times the height of the image.
+/// The standard deviation of the blur is `spread_rel` times the height of the image times the square root of
+/// the age, as that of a diffusing substance is, and at most `most_rel` times the height of the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AgeBlur {
-    /// Standard deviation at age 1, as part of the height of the image; finite, from 0 on. It depends on the unit of time, so
-    /// there is no default.
+    /// Standard deviation at age 1, as part of the height of the image; finite, from 0 on. It depends on the
+    /// unit of time, so there is no default.
     pub spread_rel: f64,
-    /// Largest standard deviation, as part of the height of the image; from 0 to 1/8. [`AgeBlur::new`] sets 1/40.
+    /// Largest standard deviation, as part of the height of the image; from 0 to 1/8. [`AgeBlur::new`] sets
+    /// 1/40.
     pub most_rel: f64,
 }
 

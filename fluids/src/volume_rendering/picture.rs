@@ -23,11 +23,13 @@ pub struct Picture {
     pub alpha: Image<f32>,
     /// Light scattered once toward the eye, for light of radiance 1 and smoke of albedo 1; from 0 to alpha.
     pub scatter: Image<f32>,
-    /// Mean age along the ray's way through the smoke, in the unit of the ages given; 0 where there is no smoke.
+    /// Mean age along the ray's way through the smoke, in the unit of the ages given; 0 where there is no
+    /// smoke.
     pub age: Image<f32>,
     /// Radiance of solids and background behind the smoke (red, green, blue).
     pub backdrop: Image<[f32; 3]>,
-    /// Radiance of everything (red, green, blue), with alpha and scatter blurred by age if the parameters ask for it.
+    /// Radiance of everything (red, green, blue), with alpha and scatter blurred by age if the parameters ask
+    /// for it.
     pub composite: Image<[f32; 3]>,
 }
 
@@ -44,7 +46,8 @@ pub struct RenderReport {
     pub most_crossings: usize,
     /// Pixels whose ray meets the smoke.
     pub covered_pixels: u64,
-    /// Pixels whose ray starts where the winding number is not 0: all of them if the eye is in the smoke, none if it is outside.
+    /// Pixels whose ray starts where the winding number is not 0: all of them if the eye is in the smoke,
+    /// none if it is outside.
     pub pixels_from_inside: u64,
     /// Voxels of the shadow texture along its axes; zeros if there is no smoke.
     pub shadow_size: [usize; 3],
@@ -167,7 +170,8 @@ pub fn render(
     Ok((Picture { alpha, scatter, age, backdrop, composite }, report))
 }
 
-/// The power of two by which coordinates are multiplied so that the largest is from 1/2 to 1, as far as there is one.
+/// The power of two by which coordinates are multiplied so that the largest is from 1/2 to 1, as far as there
+/// is one.
 ///
 /// So no sum or product of coordinates overflows, and lengths times a power of two give the same numbers.
 pub(super) fn scale_of<'p>(points: impl Iterator<Item = &'p DVec3>) -> f64 {

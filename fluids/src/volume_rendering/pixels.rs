@@ -17,7 +17,8 @@ use super::shadow::Shadow;
 use super::solids::{Solids, Surfaces};
 use super::{Image, InteriorRule};
 
-/// Rows that a thread draws at once. Chosen by trial: fewer repeat the search for triangles, more leave threads idle.
+/// Rows that a thread draws at once. Chosen by trial: fewer repeat the search for triangles, more leave
+/// threads idle.
 const BAND: usize = 16;
 
 /// Columns of a tile, so that its crossings stay in the cache. Chosen by trial.

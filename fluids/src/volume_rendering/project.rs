@@ -1,10 +1,13 @@
-//! Triangles as the camera sees them: clipped to what lies before the eye, placed on the grid of the rasteriser.
+//! Triangles as the camera sees them: clipped to what lies before the eye, placed on the grid of the
+//! rasteriser.
 //!
-//! Promises: a vertex is placed once, so neighbours stay neighbours; where an edge is clipped, both its triangles get the same point. A triangle that
-//! cannot cover a pixel is left out, which changes no pixel. What is interpolated is divided by the depth, so that it is linear in the image \[Blinn77\].
+//! Promises: a vertex is placed once, so neighbours stay neighbours; where an edge is clipped, both its
+//! triangles get the same point. A triangle that cannot cover a pixel is left out, which changes no pixel.
+//! What is interpolated is divided by the depth, so that it is linear in the image \[Blinn77\].
 //!
-//! Method: clipping to a pyramid with its apex in the eye, wider than the image. Everything in it lies before the eye, so no near plane is needed; where the
-//! pyramid cuts a surface, that is beside the image or in the eye itself.
+//! Method: clipping to a pyramid with its apex in the eye, wider than the image. Everything in it lies before
+//! the eye, so no near plane is needed; where the pyramid cuts a surface, that is beside the image or in the
+//! eye itself.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -33,7 +36,8 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// Whether the ray enters what is behind the triangle's front, that from which its corners are seen counterclockwise.
+    /// Whether the ray enters what is behind the triangle's front, that from which its corners are seen
+    /// counterclockwise.
     #[inline]
     pub(super) fn enters(&self) -> bool {
         // Seen with y downward, counterclockwise corners turn from y toward x.

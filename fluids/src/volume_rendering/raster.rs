@@ -1,15 +1,16 @@
 //! Which samples a triangle covers, and with which weights of its corners.
 //!
 //! # What it promises
-//! Corners lie on a grid of 2^[`SUBDIVISION_BITS`] steps a sample and every decision is made in integers: a sample on an edge
-//! that triangles share belongs to one side of it, for all of them the same (the top-left rule, which is that of a sample
-//! moved by an infinitesimal step left and a smaller one up). So the signed crossings of a ray with a closed surface
-//! add up to zero, whatever the snapping of its vertices does to its triangles. Weights are from 0 to 1 and add up to 1 within rounding, so that what is
-//! interpolated never leaves the range of the corners.
+//! Corners lie on a grid of 2^[`SUBDIVISION_BITS`] steps a sample and every decision is made in integers: a
+//! sample on an edge that triangles share belongs to one side of it, for all of them the same (the top-left
+//! rule, which is that of a sample moved by an infinitesimal step left and a smaller one up). So the signed
+//! crossings of a ray with a closed surface add up to zero, whatever the snapping of its vertices does to its
+//! triangles. Weights are from 0 to 1 and add up to 1 within rounding, so that what is interpolated never
+//! leaves the range of the corners.
 //!
 //! # Method
-//! Edge functions \[Pineda88\], on the bounding box or, of wide triangles, on the interval of each row. A sample stands in the
-//! middle of its cell.
+//! Edge functions \[Pineda88\], on the bounding box or, of wide triangles, on the interval of each row. A
+//! sample stands in the middle of its cell.
 //!
 //! # Invariant
 //! Corners stay below [`LIMIT`] in magnitude, so that no product overflows.
@@ -19,12 +20,14 @@ use std::ops::Range;
 /// Steps of the grid of corners in a sample, as a power of two: a corner moves by at most 2^-16 samples.
 pub(super) const SUBDIVISION_BITS: u32 = 15;
 
-/// Corners on the grid are less than this in magnitude: differences stay below 2^31 and edge functions below 2^63.
+/// Corners on the grid are less than this in magnitude: differences stay below 2^31 and edge functions below
+/// 2^63.
 pub(super) const LIMIT: i32 = 1 << 30;
 
 const STEP: i64 = 1 << SUBDIVISION_BITS;
 
-/// A position in samples from the middle of the image, on the grid. Rounds halves away from zero, so that mirrored positions stay mirrored.
+/// A position in samples from the middle of the image, on the grid. Rounds halves away from zero, so that
+/// mirrored positions stay mirrored.
 #[inline]
 pub(super) fn snap(from_middle: f64) -> i32 {
     const BOUND: f64 = (LIMIT / 2) as f64;
@@ -139,7 +142,8 @@ impl Footprint {
     }
 }
 
-/// Width in samples from which the interval of a row is computed, by divisions, instead of tried. Chosen by trial.
+/// Width in samples from which the interval of a row is computed, by divisions, instead of tried. Chosen by
+/// trial.
 const WIDE: i64 = 8;
 
 #[inline]
@@ -173,7 +177,8 @@ impl Edge {
         }
     }
 
-    /// Narrows an interval of columns, counted from that of `value`, to those where the function is at least `least`.
+    /// Narrows an interval of columns, counted from that of `value`, to those where the function is at least
+    /// `least`.
     #[inline]
     fn narrow(&self, first: &mut i64, end: &mut i64) {
         let missing = self.least - self.value;

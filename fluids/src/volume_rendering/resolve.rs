@@ -1,8 +1,9 @@
 //! From crossings to stretches of smoke: entering and leaving counted along a ray.
 //!
-//! The winding number before the first crossing is minus the sum of all crossings, since it is 0 behind the last: so a ray that starts in the smoke is
-//! in it from the start, with no need to close the surface before the eye. Between crossings the winding number tells the density
-//! ([`InteriorRule`]). A crossing out of order by rounding makes a stretch of no length to speak of wrong, not the rest of the ray.
+//! The winding number before the first crossing is minus the sum of all crossings, since it is 0 behind the
+//! last: so a ray that starts in the smoke is in it from the start, with no need to close the surface before
+//! the eye. Between crossings the winding number tells the density ([`InteriorRule`]). A crossing out of
+//! order by rounding makes a stretch of no length to speak of wrong, not the rest of the ray.
 
 use super::InteriorRule;
 use super::crossings::Crossing;

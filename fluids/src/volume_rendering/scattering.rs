@@ -1,7 +1,8 @@
 //! Light along a ray: transmittance, single scattering, and the age of what is seen.
 //!
 //! # What it computes
-//! For a ray with optical depth `t(s)` at the place `s`, and the share `v(s)` of the light that arrives there through smoke and solids:
+//! For a ray with optical depth `t(s)` at the place `s`, and the share `v(s)` of the light that arrives there
+//! through smoke and solids:
 //! ```text
 //!   alpha   = 1 - exp(-t(end))                        what the smoke hides
 //!   scatter = integral of exp(-t(s)) v(s) dt(s)       what light reaches the eye after one scattering, if nothing is absorbed
@@ -10,12 +11,13 @@
 //! So 0 <= scatter <= alpha <= 1, with scatter = alpha where nothing shadows.
 //!
 //! # What it promises
-//! Alpha and age are exact up to rounding for the crossings. Scatter is exact where `v` is linear between samples: each step has
-//! its exact weight `exp(-t) - exp(-(t + dt))`, and its sample is taken where the mean of the place by that weight is.
+//! Alpha and age are exact up to rounding for the crossings. Scatter is exact where `v` is linear between
+//! samples: each step has its exact weight `exp(-t) - exp(-(t + dt))`, and its sample is taken where the mean
+//! of the place by that weight is.
 //!
 //! # Method
-//! Steps are of one length in each stretch, at most a voxel, at most a given optical depth. Light from beyond a given
-//! optical depth no longer gets samples of its own.
+//! Steps are of one length in each stretch, at most a voxel, at most a given optical depth. Light from beyond
+//! a given optical depth no longer gets samples of its own.
 
 use super::RenderParameters;
 use super::exponential::exp_of_minus;
@@ -91,7 +93,8 @@ impl Travelled {
         }
     }
 
-    /// The scattered light between two depths with smoke of an optical depth between them, as seen from the first.
+    /// The scattered light between two depths with smoke of an optical depth between them, as seen from the
+    /// first.
     fn sample(
         &mut self,
         near: f64,
@@ -108,7 +111,8 @@ impl Travelled {
         let voxels = voxels.min((nx + ny + nz) as f64);
         let steps = (optical_depth / sampling.optical_step).max(voxels).ceil().max(1.0);
         let (step, depth_step) = (optical_depth / steps, length / steps);
-        // Where in a step the mean place of the scattered light is: 1 / t - 1 / (exp(t) - 1), whose next term is below 3e-5 t.
+        // Where in a step the mean place of the scattered light is: 1 / t - 1 / (exp(t) - 1), whose next term
+        // is below 3e-5 t.
         let centre = 0.5 - step / 12.0 + step * step * step / 720.0;
         let first = near + centre * depth_step;
         let start = [0, 1, 2].map(|k| (ray.origin[k] + first * ray.direction[k]) as f32);
@@ -118,10 +122,9 @@ impl Travelled {
         let steps = steps as u32;
         for block in (0..steps).step_by(LANES) {
             let mut at = [[0.0; LANES]; 3];
-            for lane in 0..LANES {
-                let along = (block + lane as u32) as f32;
-                for k in 0..3 {
-                    at[k][lane] = start[k] + along * stride[k];
+            for (axis, places) in at.iter_mut().enumerate() {
+                for (lane, place) in places.iter_mut().enumerate() {
+                    *place = start[axis] + (block + lane as u32) as f32 * stride[axis];
                 }
             }
             let light = shadow.transmittances(&at);

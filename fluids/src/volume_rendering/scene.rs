@@ -8,10 +8,11 @@ use super::{Camera, RenderError};
 /// Smoke inside a closed surface, solid objects, a light, a camera.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a> {
-    /// The surface that encloses the smoke. It may intersect itself and be inside out; [`InteriorRule`] tells what is smoke.
+    /// The surface that encloses the smoke. It may intersect itself and be inside out; [`InteriorRule`] tells
+    /// what is smoke.
     pub smoke: &'a ClosedOrientedMesh,
-    /// Time since emission, one number a vertex of `smoke`, from 0 to the largest of single precision; or empty,
-    /// which means 0 everywhere.
+    /// Time since emission, one number a vertex of `smoke`, from 0 to the largest of single precision; or
+    /// empty, which means 0 everywhere.
     pub ages: &'a [f64],
     /// What is not smoke.
     pub solids: &'a [Solid<'a>],
@@ -48,12 +49,14 @@ impl Scene<'_> {
     }
 }
 
-/// A solid object: opaque, and diffuse with Lambert's law. Both sides of its triangles are seen; it need not be closed.
+/// A solid object: opaque, and diffuse with Lambert's law. Both sides of its triangles are seen; it need not
+/// be closed.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid<'a> {
     /// Its surface.
     pub mesh: &'a TriMesh,
-    /// Share of the light that it throws back (red, green, blue), each from 0 to 2^40; from 0 to 1 for a real one.
+    /// Share of the light that it throws back (red, green, blue), each from 0 to 2^40; from 0 to 1 for a real
+    /// one.
     pub albedo: [f64; 3],
 }
 
@@ -64,15 +67,17 @@ pub struct Solid<'a> {
 pub struct Light {
     /// The way the light travels; any length but zero.
     pub direction: DVec3,
-    /// What a white diffuse surface that faces the light shows of it, and what smoke without shadow and of infinite optical
-    /// depth shows of it (red, green, blue); each from 0 to 2^40.
+    /// What a white diffuse surface that faces the light shows of it, and what smoke without shadow and of
+    /// infinite optical depth shows of it (red, green, blue); each from 0 to 2^40.
     pub radiance: [f64; 3],
-    /// The same of light that comes from everywhere and is shadowed by nothing (red, green, blue); each from 0 to 2^40.
+    /// The same of light that comes from everywhere and is shadowed by nothing (red, green, blue); each from
+    /// 0 to 2^40.
     pub ambient: [f64; 3],
 }
 
 impl Default for Light {
-    /// White, from above, the front and the left of a camera that looks along -z with y upward, and a tenth of it from everywhere.
+    /// White, from above, the front and the left of a camera that looks along -z with y upward, and a tenth
+    /// of it from everywhere.
     fn default() -> Self {
         Self { direction: DVec3::new(1.0, -2.0, -1.0), radiance: [1.0; 3], ambient: [0.1; 3] }
     }
@@ -96,10 +101,11 @@ impl Light {
 /// What the smoke is like, everywhere inside the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Medium {
-    /// Share of the light lost per length, absorbed or scattered away; one over a length; finite, from 0 on. Through a thickness
-    /// `l` the part `exp(-extinction l)` of the light goes.
+    /// Share of the light lost per length, absorbed or scattered away; one over a length; finite, from 0 on.
+    /// Through a thickness `l` the part `exp(-extinction l)` of the light goes.
     pub extinction: f64,
-    /// Share of the lost light that is scattered, the same into all directions (red, green, blue); each from 0 to 1.
+    /// Share of the lost light that is scattered, the same into all directions (red, green, blue); each from
+    /// 0 to 1.
     pub albedo: [f64; 3],
     /// What is inside.
     pub interior: InteriorRule,
@@ -129,17 +135,19 @@ impl Medium {
 
 /// How dense the smoke is where the surface winds around a point `w` times, as part of the medium's density.
 ///
-/// The winding number is 1 inside a surface that is embedded and oriented outward, 0 outside; 2 where two parts of the inside
-/// overlap, -1 in a part that has been turned inside out, other numbers in knots of both.
+/// The winding number is 1 inside a surface that is embedded and oriented outward, 0 outside; 2 where two
+/// parts of the inside overlap, -1 in a part that has been turned inside out, other numbers in knots of both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum InteriorRule {
-    /// 1 if `w` is not 0. The default: smoke does not become denser by a fold of its surface, which in a flow without divergence
-    /// is an error of the surface, nor vanish in a part turned inside out \[Brochu12, section 5.3\].
+    /// 1 if `w` is not 0. The default: smoke does not become denser by a fold of its surface, which in a flow
+    /// without divergence is an error of the surface, nor vanish in a part turned inside out \[Brochu12,
+    /// section 5.3\].
     #[default]
     NonZero,
     /// 1 if `w` is above 0: parts turned inside out are clear.
     Positive,
-    /// 1 if `w` is odd: what overlaps is clear, inside out or not. Counting crossings without their direction gives this.
+    /// 1 if `w` is odd: what overlaps is clear, inside out or not. Counting crossings without their direction
+    /// gives this.
     Odd,
     /// `|w|`: overlapping parts add up, as if each were smoke of its own.
     Multiplicity,
@@ -148,8 +156,8 @@ pub enum InteriorRule {
 impl InteriorRule {
     /// The density of a winding number.
     ///
-    /// Between the integers it goes along straight lines, and so gives the mean density of a region from its mean winding
-    /// number, exactly if only two consecutive winding numbers occur there.
+    /// Between the integers it goes along straight lines, and so gives the mean density of a region from its
+    /// mean winding number, exactly if only two consecutive winding numbers occur there.
     ///
     /// ```
     /// use welter_fluids::volume_rendering::InteriorRule;

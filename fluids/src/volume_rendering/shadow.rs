@@ -1,15 +1,17 @@
 //! How much of the light arrives: the shadow texture of the smoke, and the map of shadows of solids.
 //!
 //! # What it computes
-//! The texture holds, at the face of each voxel that the light leaves by and at those it first enters by, the length of smoke that
-//! the light has passed, as the mean over the face. It is linear between the two faces of a voxel, which is right for a
-//! voxel of one density, and linear between the middles of columns. The share of the light that arrives is
-//! `exp(-extinction length)`. Solids are drawn into a depth map along the light; a point beyond its solid is dark.
+//! The texture holds, at the face of each voxel that the light leaves by and at those it first enters by, the
+//! length of smoke that the light has passed, as the mean over the face. It is linear between the two faces
+//! of a voxel, which is right for a voxel of one density, and linear between the middles of columns. The
+//! share of the light that arrives is `exp(-extinction length)`. Solids are drawn into a depth map along the
+//! light; a point beyond its solid is dark.
 //!
 //! # What it does not promise
-//! An exact shadow: the length at a face is a mean over the face, which where the surface is oblique to the light or where light grazes it
-//! mixes points before and behind the surface. The root mean square error of the scatter of a ball falls with the power 1 to 1.5 of the
-//! voxel's side; a sheet has to be some voxels thick, one of two voxels is off by several percent (`tests/fluids/volume_rendering/twin.rs`). Edges of
+//! An exact shadow: the length at a face is a mean over the face, which where the surface is oblique to the
+//! light or where light grazes it mixes points before and behind the surface. The root mean square error of
+//! the scatter of a ball falls with the power 1 to 1.5 of the voxel's side; a sheet has to be some voxels
+//! thick, one of two voxels is off by several percent (`tests/fluids/volume_rendering/twin.rs`). Edges of
 //! shadows of solids are as wide as a texel.
 
 use glam::DVec3;
@@ -57,7 +59,8 @@ impl Shadow {
         &self.lattice
     }
 
-    /// The share of the light that arrives at points of the smoke, in lattice coordinates (all first ones, then all second ones, ...).
+    /// The share of the light that arrives at points of the smoke, in lattice coordinates (all first ones,
+    /// then all second ones, ...).
     #[inline]
     pub(super) fn transmittances(&self, at: &[[f32; LANES]; 3]) -> [f32; LANES] {
         if self.texture.lengths.is_empty() {
@@ -94,8 +97,8 @@ impl Shadow {
 
 /// Voxels of smoke that the light has passed, at the faces of the voxels.
 ///
-/// There is a column more on each side, equal to its neighbour, and a face more at the end of each column, so that
-/// no coordinate needs a case of its own.
+/// There is a column more on each side, equal to its neighbour, and a face more at the end of each column, so
+/// that no coordinate needs a case of its own.
 #[derive(Debug)]
 struct Texture {
     /// Faces of a column along the light together, then columns along the first axis.
@@ -164,10 +167,12 @@ fn mix(a: f32, b: f32, part: f32) -> f32 {
     a + part * (b - a)
 }
 
-/// For each coordinate, moved between 0 and `most` and then by `shift`, a node next to it, and the part of the way to the next node, from 0 to 1.
+/// For each coordinate, moved between 0 and `most` and then by `shift`, a node next to it, and the part of
+/// the way to the next node, from 0 to 1.
 #[inline]
 fn nodes<const N: usize>(coordinates: &[f32; N], shift: f32, most: f32) -> ([u32; N], [f32; N]) {
-    // Adding 2^23 rounds to an integer, which then is in the last bits. A node itself may count as the end of the interval before.
+    // Adding 2^23 rounds to an integer, which then is in the last bits. A node itself may count as the end of
+    // the interval before.
     const ROUND: f32 = 8_388_608.0;
     let (mut inside, mut shifted) = ([0.0_f32; N], [0.0_f32; N]);
     for k in 0..N {

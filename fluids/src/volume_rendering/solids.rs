@@ -1,8 +1,9 @@
 //! What is seen of solid objects: the first triangle along a ray, and its shade by Lambert's law.
 //!
-//! A point is lit if its side faces the light and no triangle of any solid is between; the ray to the light starts beside the
-//! surface by 2^-32 of the size of the coordinates, so that rounding does not shade a surface by itself. Smoke between is looked up in the shadow texture. Triangles are
-//! flat, and seen from both sides.
+//! A point is lit if its side faces the light and no triangle of any solid is between; the ray to the light
+//! starts beside the surface by 2^-32 of the size of the coordinates, so that rounding does not shade a
+//! surface by itself. Smoke between is looked up in the shadow texture. Triangles are flat, and seen from
+//! both sides.
 
 use glam::DVec3;
 use welter_meshing::spatial::Bvh;
@@ -92,7 +93,8 @@ impl<'a> Solids<'a> {
         &self.pieces
     }
 
-    /// What is seen of the surface of a pixel, along a vector from the eye to depth 1 in the scene; none where there is no surface.
+    /// What is seen of the surface of a pixel, along a vector from the eye to depth 1 in the scene; none
+    /// where there is no surface.
     pub(super) fn shade(
         &self,
         surfaces: &Surfaces,
@@ -108,7 +110,8 @@ impl<'a> Solids<'a> {
         let [a, b, c] = corners.map(|p| p * self.scale);
         let normal = unit((b - a).cross(c - a)).unwrap_or(DVec3::ZERO);
         let normal = if normal.dot(ray) > 0.0 { -normal } else { normal };
-        // The depth is that of a triangle whose corners were moved to the grid; the point is moved back onto its plane.
+        // The depth is that of a triangle whose corners were moved to the grid; the point is moved back onto
+        // its plane.
         let seen = eye + surfaces.depth(pixel) * ray;
         let point = seen - (seen - a).dot(normal) * normal;
         let cosine = normal.dot(self.to_light);

@@ -19,12 +19,14 @@ pub struct VoxelVolumes {
     pub spacing: f64,
     /// Cubes along each axis.
     pub size: [usize; 3],
-    /// The integral of the winding number over each cube; cubes along the last axis stand together, then those along the first.
+    /// The integral of the winding number over each cube; cubes along the last axis stand together, then
+    /// those along the first.
     pub volumes: Vec<f64>,
 }
 
-/// The integral of the winding number of a surface over each cube of a lattice that encloses it, aligned with a light, with `resolution` cubes
-/// along its longest side (from 1 to 4096): the volume inside, of an embedded surface. Exact up to rounding.
+/// The integral of the winding number of a surface over each cube of a lattice that encloses it, aligned with
+/// a light, with `resolution` cubes along its longest side (from 1 to 4096): the volume inside, of an
+/// embedded surface. Exact up to rounding.
 ///
 /// ```
 /// use glam::DVec3;

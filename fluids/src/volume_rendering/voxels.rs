@@ -1,19 +1,21 @@
 //! The volume of smoke in each voxel of a lattice, from its surface.
 //!
 //! # What it computes
-//! For every voxel the integral of the winding number over it: the volume inside, of a surface that is embedded and oriented
-//! outward; overlaps count twice, parts turned inside out negatively.
+//! For every voxel the integral of the winding number over it: the volume inside, of a surface that is
+//! embedded and oriented outward; overlaps count twice, parts turned inside out negatively.
 //!
 //! # What it promises
-//! Exact up to rounding: every triangle is clipped to the voxels it passes, no sample is taken. The sum over all voxels is the signed
-//! volume of the surface. The same bits for any number of threads.
+//! Exact up to rounding: every triangle is clipped to the voxels it passes, no sample is taken. The sum over
+//! all voxels is the signed volume of the surface. The same bits for any number of threads.
 //!
 //! # Method
-//! The winding number of a point is the sum, over the triangles that the ray from it along the third axis crosses, of +1 where the ray
-//! leaves the inside and -1 where it enters. So a triangle adds to each voxel the signed volume of the part that lies before it along that axis: in the
-//! voxel that holds a piece of it, the prism from the near face to the piece; in all nearer voxels of the column, the
-//! area of the piece times the side. The areas are carried to the nearer voxels by one sum along each column.
-//! Pieces are clipped polygons \[Sutherland74, Brochu12, section 6.6\]; bands of rows go in parallel, in each the triangles in order.
+//! The winding number of a point is the sum, over the triangles that the ray from it along the third axis
+//! crosses, of +1 where the ray leaves the inside and -1 where it enters. So a triangle adds to each voxel
+//! the signed volume of the part that lies before it along that axis: in the voxel that holds a piece of it,
+//! the prism from the near face to the piece; in all nearer voxels of the column, the area of the piece times
+//! the side. The areas are carried to the nearer voxels by one sum along each column. Pieces are clipped
+//! polygons \[Sutherland74, Brochu12, section 6.6\]; bands of rows go in parallel, in each the triangles in
+//! order.
 //!
 //! # Complexity
 //! Linear in the pieces and in the voxels.
@@ -23,11 +25,12 @@ use rayon::prelude::*;
 
 use super::clip::{Corner, Polygon};
 
-/// Rows of voxels that a thread takes at once. Chosen by trial: fewer repeat the search for triangles, more leave threads idle.
+/// Rows of voxels that a thread takes at once. Chosen by trial: fewer repeat the search for triangles, more
+/// leave threads idle.
 const BAND: usize = 4;
 
-/// The integral of the winding number over each voxel, voxels along the third axis together, then along the first. Corners are
-/// in lattice coordinates, within the lattice.
+/// The integral of the winding number over each voxel, voxels along the third axis together, then along the
+/// first. Corners are in lattice coordinates, within the lattice.
 pub(super) fn volumes(corners: &[[DVec3; 3]], size: [usize; 3]) -> Vec<f64> {
     let [nx, ny, nz] = size;
     let mut volumes = vec![0.0; nx * ny * nz];
@@ -102,7 +105,8 @@ fn cells(polygon: &Polygon, axis: usize, first: usize, last: usize) -> std::ops:
         low = low.min(corner.point[axis]);
         high = high.max(corner.point[axis]);
     }
-    // The casts saturate: a polygon that was cut down to nothing has one cell at most, to which it adds nothing.
+    // The casts saturate: a polygon that was cut down to nothing has one cell at most, to which it adds
+    // nothing.
     (low as usize).clamp(first, last.max(first))..=(high as usize).min(last)
 }
 
@@ -123,7 +127,8 @@ fn clip_to_cell(polygon: &Polygon, axis: usize, cell: usize, result: &mut Polygo
     }
 }
 
-/// The signed area of a polygon across the third axis, and the signed volume between it and the plane at `base` of that axis.
+/// The signed area of a polygon across the third axis, and the signed volume between it and the plane at
+/// `base` of that axis.
 #[inline]
 fn prism(corners: &[Corner], base: f64) -> (f64, f64) {
     let Some((first, rest)) = corners.split_first() else { return (0.0, 0.0) };

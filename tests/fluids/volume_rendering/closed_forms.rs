@@ -5,8 +5,8 @@ use glam::DVec3;
 use welter_fluids::volume_rendering::{Camera, Light, Scene};
 use welter_meshing::shapes::{Box_, box_};
 
-/// The alpha of a ball is that of its chord. The surface lies within `edge^2 / 6` of the sphere, at the middle of its
-/// triangles, so the chord is that of a sphere whose radius is less by up to that.
+/// The alpha of a ball is that of its chord. The surface lies within `edge^2 / 6` of the sphere, at the
+/// middle of its triangles, so the chord is that of a sphere whose radius is less by up to that.
 #[test]
 fn the_alpha_of_a_ball_is_that_of_its_chords() {
     let (edge, extinction) = (0.02, 1.5);
@@ -37,8 +37,8 @@ fn the_alpha_of_a_ball_is_that_of_its_chords() {
     assert!(count > 500);
 }
 
-/// A slab lit from the front: light and sight go the same way `s` through the smoke, so scatter is the integral of
-/// `e^-t e^-t`.
+/// A slab lit from the front: light and sight go the same way `s` through the smoke, so scatter is the
+/// integral of `e^-t e^-t`.
 #[test]
 fn a_slab_lit_along_the_sight() {
     let extinction = 0.8;
@@ -58,7 +58,8 @@ fn a_slab_lit_along_the_sight() {
     let (alpha_error, scatter_error) = (at(&picture.alpha) - alpha, at(&picture.scatter) - scatter);
     println!("slab: alpha off by {alpha_error:.1e}, scatter by {scatter_error:.1e}");
     assert!(alpha_error.abs() < 1e-5 && scatter_error.abs() < 1e-3 * scatter);
-    // Lit from the side, light that enters where the ray does is not shadowed there, and far inside it is dark.
+    // Lit from the side, light that enters where the ray does is not shadowed there, and far inside it is
+    // dark.
     let side = Light { direction: DVec3::X, ..Light::default() };
     let (picture, _) = drawn(&Scene { light: side, ..scene }, &parameters(64, 64, 64));
     for x in [5_usize, 20, 40] {
@@ -90,7 +91,8 @@ fn ages_are_linear_along_a_ray() {
     let (picture, _) = drawn(&scene, &parameters(32, 24, 8));
     let half = f64::tan(20.0_f64.to_radians());
     for (x, y) in [(16_usize, 12_usize), (12, 10), (20, 14)] {
-        // The middle of the way through is at z = -1/4, where x is in proportion to the distance from the eye.
+        // The middle of the way through is at z = -1/4, where x is in proportion to the distance from the
+        // eye.
         let across = (x as f64 + 0.5 - 16.0) / 12.0 * half;
         let expected = 10.0 + 2.0 * across * 6.25 + 0.25;
         let age = f64::from(*picture.age.at(x, y));

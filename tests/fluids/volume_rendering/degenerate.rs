@@ -59,7 +59,8 @@ fn surfaces_around_behind_and_through_the_eye() {
     assert_eq!((report.pixels_from_inside, report.most_crossings), (0, 2));
     let through = 1.0 - (-1.0_f32).exp();
     assert!(picture.alpha.pixels().iter().all(|a| (a - through).abs() < 0.05));
-    // In a vertex, an edge and a triangle of the surface: some rays start inside, others outside, none anywhere else.
+    // In a vertex, an edge and a triangle of the surface: some rays start inside, others outside, none
+    // anywhere else.
     let ball = ball(DVec3::ZERO, 1.0, 0.5);
     let [a, b, c] = ball.triangles()[0].map(|v| ball.positions()[v.index()]);
     for eye in [a, 0.5 * (a + b), (a + b + c) / 3.0] {
@@ -116,7 +117,8 @@ fn extreme_numbers_have_pictures() {
     assert!(picture.composite.pixels().iter().flatten().all(|c| c.is_finite()));
 }
 
-/// More crossings of one tile than are held at a time: it is divided, and the picture is that of fewer pixels at a time.
+/// More crossings of one tile than are held at a time: it is divided, and the picture is that of fewer pixels
+/// at a time.
 #[test]
 fn crowded_tiles_are_divided() {
     let slab = |k: usize| {

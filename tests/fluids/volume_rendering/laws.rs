@@ -28,7 +28,8 @@ fn every_ray_enters_as_often_as_it_leaves() {
     for (index, shape) in shapes.iter().enumerate() {
         for eye in eyes {
             let scene = Scene { camera: Camera::toward(eye, DVec3::ZERO), ..scene(shape, 1.0) };
-            // An odd and an even number of pixels: axes of the shapes through the middle of pixels and between them.
+            // An odd and an even number of pixels: axes of the shapes through the middle of pixels and
+            // between them.
             for size in [64, 65] {
                 let (picture, report) = drawn(&scene, &parameters(size, size, 8));
                 assert_eq!(report.pixels_from_inside, 0, "shape {index} from {eye}");
@@ -131,7 +132,8 @@ fn a_turned_scene_gives_the_same_picture() {
     assert!(alpha < 1e-3 && scatter < 5e-3, "{alpha} {scatter}");
 }
 
-/// Where nothing overlaps and nothing is reversed all rules agree, and the orientation is nothing to two of them.
+/// Where nothing overlaps and nothing is reversed all rules agree, and the orientation is nothing to two of
+/// them.
 #[test]
 fn rules_agree_on_an_embedded_surface() {
     let smoke = torus(&Torus { edge_length: 0.15, ..Torus::default() }).unwrap();

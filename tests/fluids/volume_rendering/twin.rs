@@ -1,4 +1,5 @@
-//! Every channel within 1 % of its maximum of a ray tracer that meets every triangle and marches toward the light.
+//! Every channel within 1 % of its maximum of a ray tracer that meets every triangle and marches toward the
+//! light.
 
 use super::{ball, drawn, moved, parameters, scene, together};
 use glam::DVec3;
@@ -12,8 +13,8 @@ use welter_meshing::surface::ClosedOrientedMesh;
 
 const SIZE: [u32; 2] = [96, 72];
 
-/// Steps of the twin in each stretch. With four times as many, its differences change by less than a tenth of a percent, most where
-/// the shadow of a solid ends within a step.
+/// Steps of the twin in each stretch. With four times as many, its differences change by less than a tenth of
+/// a percent, most where the shadow of a solid ends within a step.
 const STEPS: u32 = 400;
 
 /// One pixel in so many is compared.
@@ -61,7 +62,7 @@ fn errors(scene: &Scene<'_>, parameters: &RenderParameters) -> Errors {
         })
         .collect();
     let mut errors = Errors { worst: [0.0; 5], mean: [0.0; 5], large: [0.0; 5] };
-    for k in 0..5 {
+    for (k, channel) in CHANNELS.into_iter().enumerate() {
         let most = rows.iter().fold(0.0_f64, |most, row| most.max(row.1[k]));
         let of = |row: &([f64; 5], [f64; 5])| (row.0[k] - row.1[k]).abs();
         let worst = rows.iter().map(of).fold(0.0, f64::max);
@@ -71,7 +72,7 @@ fn errors(scene: &Scene<'_>, parameters: &RenderParameters) -> Errors {
             let large = rows.iter().filter(|row| of(row) > 0.01 * most).count();
             errors.large[k] = large as f64 / rows.len() as f64;
         } else {
-            assert_eq!(worst, 0.0, "{} is 0 in the twin", CHANNELS[k]);
+            assert_eq!(worst, 0.0, "{} is 0 in the twin", channel);
         }
     }
     errors
@@ -87,17 +88,17 @@ fn agrees(name: &str, scene: &Scene<'_>, resolution: u32, share: f64) {
     let ages = ages(scene.smoke);
     let scene = Scene { ages: &ages, ..*scene };
     let errors = errors(&scene, &parameters(SIZE[0], SIZE[1], resolution));
-    for k in 0..5 {
+    for (k, channel) in CHANNELS.into_iter().enumerate() {
         println!(
             "{name}, {resolution} voxels: {} differs by {:.2e} at most, root mean square {:.2e}, by more than 1 % at {:.2} % of the pixels",
-            CHANNELS[k],
+            channel,
             errors.worst[k],
             errors.mean[k],
             100.0 * errors.large[k]
         );
     }
-    for k in 0..5 {
-        assert!(errors.large[k] <= share && errors.mean[k] < 5e-3, "{name}: {} {errors:?}", CHANNELS[k]);
+    for (k, channel) in CHANNELS.into_iter().enumerate() {
+        assert!(errors.large[k] <= share && errors.mean[k] < 5e-3, "{name}: {} {errors:?}", channel);
     }
     // Neither depends on the shadow texture.
     assert!(errors.worst[0] < 1e-3 && errors.worst[2] < 1e-3, "{name}: {errors:?}");
@@ -156,8 +157,8 @@ fn a_thin_sheet() {
     }
 }
 
-/// At the edge of the shadow of a ball on a plate the smoke's thickness rises like a square root, and at that of a solid the light
-/// jumps: within a voxel or a texel of the edge the picture differs more.
+/// At the edge of the shadow of a ball on a plate the smoke's thickness rises like a square root, and at that
+/// of a solid the light jumps: within a voxel or a texel of the edge the picture differs more.
 #[test]
 fn a_solid_that_casts_a_shadow() {
     let (smoke, solid) =

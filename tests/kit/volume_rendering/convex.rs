@@ -1,7 +1,7 @@
 //! Convex polyhedra cut by planes: the volume of a convex surface in a box.
 //!
-//! Each face is cut as a polygon; the hole that a plane leaves is closed by the points on it in the order of their angle.
-//! The volume is that of the pyramids over the faces from one of the points.
+//! Each face is cut as a polygon; the hole that a plane leaves is closed by the points on it in the order of
+//! their angle. The volume is that of the pyramids over the faces from one of the points.
 
 use glam::DVec3;
 

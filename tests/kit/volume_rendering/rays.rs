@@ -1,7 +1,8 @@
 //! Where a ray crosses the triangles of a surface, one after the other.
 //!
-//! The solution of `origin + t direction = a + u (b - a) + v (c - a)` by Cramer's rule. A ray that meets an edge, by
-//! rounding, may count a triangle too often or not at all; the crossings of a closed surface then do not balance, and the ray is moved by a part in 10^9.
+//! The solution of `origin + t direction = a + u (b - a) + v (c - a)` by Cramer's rule. A ray that meets an
+//! edge, by rounding, may count a triangle too often or not at all; the crossings of a closed surface then do
+//! not balance, and the ray is moved by a part in 10^9.
 
 use glam::DVec3;
 
@@ -69,7 +70,8 @@ pub fn first(triangles: &[[DVec3; 3]], origin: DVec3, direction: DVec3) -> Optio
     line(triangles, origin, direction).into_iter().find(|hit| hit.t > 0.0)
 }
 
-/// How often the surface winds around a point of a line: what has been entered and not left, from one end of the line.
+/// How often the surface winds around a point of a line: what has been entered and not left, from one end of
+/// the line.
 #[must_use]
 pub fn winding_at(hits: &[Hit], t: f64) -> i32 {
     hits.iter().filter(|hit| hit.t < t).map(|hit| hit.sign).sum()
