@@ -158,7 +158,7 @@ impl Studio<'_> {
                         direction: lattice.turn(ray).to_array(),
                         optical_depth: self.extinction * along.length(),
                     };
-                    let mut travelled = Travelled::default();
+                    let mut travelled = Travelled::start();
                     stretches(met, surfaces.depth(pixel), self.rule, |stretch| {
                         travelled.pass(&stretch, &ray, &self.shadow, &self.sampling);
                     });

@@ -25,9 +25,11 @@ use super::resolve::Stretch;
 use super::shadow::{LANES, Shadow};
 
 /// What a ray meets on its way, as far as it has been followed.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Travelled {
     optical_depth: f64,
+    /// The share of the light from beyond that comes through: `exp(-optical_depth)`.
+    clear: f64,
     scatter: f64,
     length: f64,
     age_times_length: f64,
@@ -60,6 +62,11 @@ impl Sampling {
 }
 
 impl Travelled {
+    /// At the eye.
+    pub(super) fn start() -> Self {
+        Self { optical_depth: 0.0, clear: 1.0, scatter: 0.0, length: 0.0, age_times_length: 0.0, light: 0.0 }
+    }
+
     pub(super) fn alpha(&self) -> f64 {
         -libm::expm1(-self.optical_depth)
     }
@@ -79,18 +86,19 @@ impl Travelled {
         self.length += length;
         self.age_times_length += length * stretch.age;
         let optical_depth = ray.optical_depth * stretch.density * length;
-        let front = libm::exp(-self.optical_depth);
-        let sampled = optical_depth.min(sampling.deep - self.optical_depth);
-        let mut back = front;
+        let (front, sampled) = (self.clear, optical_depth.min(sampling.deep - self.optical_depth));
+        let mut unsampled = front;
         if sampled > 0.0 {
-            back = libm::exp(-(self.optical_depth + sampled));
             let far = stretch.near + length * (sampled / optical_depth);
             self.scatter += front * self.sample(stretch.near, far, sampled, ray, shadow, sampling);
+            unsampled = front * libm::exp(-sampled);
+        }
+        self.clear = unsampled;
+        if sampled < optical_depth {
+            self.clear = libm::exp(-(self.optical_depth + optical_depth));
+            self.scatter += (unsampled - self.clear).max(0.0) * f64::from(self.light);
         }
         self.optical_depth += optical_depth;
-        if sampled < optical_depth {
-            self.scatter += (back - libm::exp(-self.optical_depth)) * f64::from(self.light);
-        }
     }
 
     /// The scattered light between two depths with smoke of an optical depth between them, as seen from the
