@@ -11,7 +11,7 @@
 //!   backdrop  what is behind the smoke: solids by Lambert's law with their shadows, the background
 //!   composite albedo (radiance scatter + ambient alpha) + (1 - alpha) backdrop, after a blur by age if asked for
 //! ```
-//! [`voxel_volumes`] gives what the shadow texture is made of: the volume of smoke in each cube of a lattice.
+//! [`voxel_volumes()`] gives what the shadow texture is made of: the volume of smoke in each cube of a lattice.
 //!
 //! # What it promises
 //! * A ray crosses a closed surface into the inside as often as out of it, in every position of both, if the
