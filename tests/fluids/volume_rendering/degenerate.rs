@@ -4,8 +4,8 @@ use super::{ball, drawn, moved, parameters, scene, together};
 use glam::DVec3;
 use std::sync::atomic::AtomicBool;
 use welter_fluids::volume_rendering::{
-    AgeBlur, Camera, Light, MAX_SIDE, Medium, RenderError, RenderParameters, Scene, Solid, render,
-    voxel_volumes,
+    AgeBlur, Camera, InteriorRule, Light, MAX_SIDE, Medium, RenderError, RenderParameters, Scene, Solid,
+    render, voxel_volumes,
 };
 use welter_meshing::Monitor;
 use welter_meshing::surface::{ClosedOrientedMesh, TriMesh, TriangleSoup};
@@ -115,6 +115,71 @@ fn extreme_numbers_have_pictures() {
     let solids = [Solid { mesh: &solid, albedo: [1.0; 3] }];
     let (picture, _) = drawn(&Scene { solids: &solids, ..scene(&ball, 1.0) }, &parameters(8, 8, 4));
     assert!(picture.composite.pixels().iter().flatten().all(|c| c.is_finite()));
+}
+
+/// Tetrahedra with corners on a coarse lattice, or next to it, seen and lit from and along the lattice: flat ones, coincident
+/// ones, eyes in corners, edges and faces, lines of sight along them. `WELTER_RENDERED_SCENES` sets how many.
+#[test]
+fn tetrahedra_on_a_lattice_from_anywhere() {
+    let mut state = 11_u64;
+    let mut random = |count: u64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) % count
+    };
+    let (mut covered, mut inside) = (0, 0);
+    let rounds = std::env::var("WELTER_RENDERED_SCENES").map_or(400, |text| text.parse().unwrap());
+    for round in 0..rounds {
+        let mut place = |spread: u64| {
+            let mut coordinate = || random(spread) as f64 - (spread / 2) as f64;
+            let at = DVec3::new(coordinate(), coordinate(), coordinate());
+            let near = DVec3::new(coordinate(), coordinate(), coordinate()) * f64::EPSILON;
+            if round % 3 == 0 { at + near } else { at }
+        };
+        let mut tetrahedron = || {
+            let positions = (0..4).map(|_| place(3)).collect();
+            let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+            let soup = TriangleSoup { positions, triangles, ..TriangleSoup::default() };
+            ClosedOrientedMesh::new(TriMesh::new(soup).unwrap()).unwrap()
+        };
+        let smoke = together(vec![tetrahedron(), tetrahedron(), tetrahedron()]);
+        let solid = tetrahedron();
+        let solids = [Solid { mesh: &solid, albedo: [0.5; 3] }];
+        let (mut eye, target, light) = (place(5), place(3), place(3));
+        if round % 5 == 0 {
+            // In the middle of one of them.
+            eye = smoke.positions()[..4].iter().sum::<DVec3>() / 4.0;
+        }
+        let ages: Vec<f64> = (0..smoke.positions().len()).map(|v| 2.0 + (v % 3) as f64).collect();
+        let mut scene = Scene {
+            ages: &ages,
+            solids: if round % 2 == 0 { &solids } else { &[] },
+            camera: Camera { up: DVec3::new(0.3, 0.9, -0.4), ..Camera::toward(eye, target) },
+            light: Light { direction: light, ..Light::default() },
+            ..scene(&smoke, 1.0)
+        };
+        scene.medium.interior =
+            [InteriorRule::NonZero, InteriorRule::Positive, InteriorRule::Odd, InteriorRule::Multiplicity]
+                [round % 4];
+        let (picture, report) = match render(&scene, &parameters(12, 9, 5), &Monitor::none()) {
+            Ok(done) => done,
+            Err(error) => {
+                assert!(
+                    eye.distance(target) < 1e-9 || light.length() < 1e-9,
+                    "{eye} {target} {light}: {error}"
+                );
+                continue;
+            }
+        };
+        covered += report.covered_pixels;
+        inside += report.pixels_from_inside;
+        for (at, &alpha) in picture.alpha.pixels().iter().enumerate() {
+            let (scatter, age) = (picture.scatter.pixels()[at], picture.age.pixels()[at]);
+            assert!((0.0..=1.0).contains(&alpha) && (0.0..=alpha + 1e-6).contains(&scatter), "{round}");
+            assert!(age == 0.0 || (1.999..4.001).contains(&age), "{round}: {age}");
+            assert!(picture.composite.pixels()[at].iter().all(|c| (0.0..10.0).contains(c)), "{round}");
+        }
+    }
+    assert!(covered > 25 * rounds as u64 && inside > 5 * rounds as u64, "{covered} {inside}");
 }
 
 /// More crossings of one tile than are held at a time: it is divided, and the picture is that of fewer pixels
