@@ -49,7 +49,10 @@ pub(super) fn blur(
         let deviation = parameters.deviation(f64::from(age), height) as f32;
         *splat = [alpha, scatter, deviation * alpha, 0.0];
     });
-    let splats = spread_rows(&spread_rows(&splats).transposed()).transposed();
+    let rows = spread_rows(&splats, Image::filled(width, height, [0.0; 4]));
+    let turned = rows.transposed(splats);
+    let columns = spread_rows(&turned, rows);
+    let splats = columns.transposed(turned);
     let plane = |value: fn(&Splat) -> f32| {
         let mut plane = Image::filled(width, height, 0.0);
         let pairs = plane.pixels_mut().par_iter_mut().zip(splats.pixels()).with_min_len(4096);
@@ -59,11 +62,13 @@ pub(super) fn blur(
     (plane(|splat| splat[0]), plane(|splat| splat[1]))
 }
 
-fn spread_rows(image: &Image<Splat>) -> Image<Splat> {
-    let width = image.width();
-    let mut result = Image::filled(width, image.height(), [0.0; 4]);
-    let rows = result.pixels_mut().par_chunks_mut(width.max(1)).zip(image.pixels().par_chunks(width.max(1)));
+/// Every row spread, in the memory of another image.
+fn spread_rows(image: &Image<Splat>, memory: Image<Splat>) -> Image<Splat> {
+    let width = image.width().max(1);
+    let mut result = Image::like(image, memory);
+    let rows = result.pixels_mut().par_chunks_mut(width).zip(image.pixels().par_chunks(width));
     rows.for_each_init(Vec::new, |weights, (to, from)| {
+        to.fill([0.0; 4]);
         for (at, splat) in from.iter().enumerate() {
             spread(splat, at, to, weights);
         }

@@ -73,12 +73,19 @@ impl<T> Image<T> {
 }
 
 impl<T: Copy + Send + Sync> Image<T> {
-    /// The image of columns as rows.
-    pub(super) fn transposed(&self) -> Self {
+    /// An image with the sides of another, in the memory of a third of as many pixels, whose values it has at first.
+    pub(super) fn like(other: &Self, memory: Self) -> Self {
+        assert_eq!(memory.pixels.len(), other.pixels.len(), "the images have as many pixels");
+        Self { width: other.width, height: other.height, pixels: memory.pixels }
+    }
+
+    /// The image of columns as rows, in the memory of another of as many pixels.
+    pub(super) fn transposed(&self, memory: Self) -> Self {
         /// Side of the squares that are moved at once, so that reads and writes stay in the cache.
         const SQUARE: usize = 16;
         let (width, height) = (self.height, self.width);
-        let mut pixels = self.pixels.clone();
+        let mut pixels = memory.pixels;
+        assert_eq!(pixels.len(), self.pixels.len(), "the images have as many pixels");
         if width > 0 {
             pixels.par_chunks_mut(width * SQUARE).enumerate().for_each(|(band, rows)| {
                 let first = band * SQUARE;
@@ -108,9 +115,9 @@ mod tests {
                 *image.at_mut(x, y) = (x, y);
             }
         }
-        let turned = image.transposed();
+        let turned = image.transposed(Image::filled(37, 21, (0, 0)));
         assert_eq!((turned.width(), turned.height()), (21, 37));
         assert!((0..37).all(|x| (0..21).all(|y| *turned.at(y, x) == (x, y))));
-        assert!(turned.transposed() == image);
+        assert!(turned.transposed(turned.clone()) == image);
     }
 }

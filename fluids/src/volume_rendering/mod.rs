@@ -82,7 +82,7 @@ pub use voxel_volumes::{VoxelVolumes, voxel_volumes};
 /// Most pixels along a side of an image: coordinates of the rasteriser stay below 2^30.
 pub const MAX_SIDE: u32 = 1 << 14;
 
-/// Most pixels of an image: 67 million, whose planes take 2.4 GB, and 3.2 GB more while they are blurred.
+/// Most pixels of an image: 67 million, whose planes take 2.4 GB, and 2.7 GB more while they are blurred.
 pub const MAX_PIXELS: u64 = 1 << 26;
 
 /// Most voxels of a shadow texture: 268 million, which take 3.3 GB while it is made and 1.1 GB then.
