@@ -23,8 +23,8 @@
 //!   traces all rays exactly, at the resolutions measured in `tests/fluids/volume_rendering`.
 //! * The same bits for any number of threads, and, with all lengths times a power of two and the extinction
 //!   divided by it, the same bits too.
-//! * No scene makes it panic; what makes no sense is a typed error. Memory besides the image and the shadow
-//!   texture is bounded by the triangles and a constant for each thread.
+//! * No scene makes it panic; what makes no sense is a typed error. Memory besides the image, the shadow
+//!   texture and the map of shadows of solids is bounded by the triangles and a constant for each thread.
 //!
 //! # What it does not promise
 //! * Light scattered more than once, density that varies inside, point lights.
