@@ -4,17 +4,14 @@
 //! # What it promises
 //! * The same scene gives the same bits for any number of threads.
 //!
-//! # What it holds today
-//! * [`volume_rendering`]: the picture of uniform smoke inside a closed surface.
-//!
 //! # What it will promise
 //! * Each solver states what it conserves (circulation, volume, momentum, energy) and reports it every step.
 //! * Convergence orders are stated in the documentation and asserted by tests against analytic solutions.
-//! * The same scene gives the same bits for any number of threads.
 //!
 //! # What it holds today
 //! * [`procedural`]: flow without simulation, from formulas with exact curls.
 //! * [`smoke`]: smoke as a surface: which surfaces are released, when and where.
+//! * [`volume_rendering`]: the picture of uniform smoke inside a closed surface.
 
 #![forbid(unsafe_code)]
 

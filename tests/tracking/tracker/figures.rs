@@ -185,7 +185,7 @@ fn curl_noise_keeps_volume() {
     let parameters = CurlNoiseParameters {
         potential: Potential::Planar,
         octaves: 1,
-        speed: 0.1,
+        speed: setting("WELTER_TRACKER_CURL_SPEED", 0.1),
         ..CurlNoiseParameters::default()
     };
     let end = setting("WELTER_TRACKER_CURL_TIME", 3.0);

@@ -9,9 +9,9 @@
 //! by a triangle, which is no change of topology.
 
 use super::embedding::Replacement;
-use super::parting::SHIFTS;
+use super::parting::{Cut, SHIFTS, Shifted};
 use super::workpiece::Workpiece;
-use crate::surface::HalfEdge;
+use crate::surface::{HalfEdge, Plan};
 use glam::DVec3;
 use welter_meshing::surface::{TriId, VertexId};
 
@@ -72,12 +72,12 @@ impl Workpiece<'_> {
             SHIFTS.into_iter().flat_map(|shift| sets.iter().map(move |set| (shift, set.clone())))
         {
             let mut plan = plan.clone();
-            let mut shifted: Vec<(VertexId, DVec3)> = ways.iter().map(|&(w, _)| (w, here)).collect();
+            let mut shifted: Vec<Shifted> = ways.iter().map(|&(w, _)| (w, [here; 2])).collect();
             for i in set {
-                shifted[i].1 = here + shift * ways[i].1;
+                shifted[i].1[1] = here + shift * ways[i].1;
             }
-            if shifted.iter().any(|&(w, place)| plan.place(w, place).is_err())
-                || !self.may_part(&plan, &shifted)
+            if shifted.iter().any(|&(w, [_, place])| plan.place(w, place).is_err())
+                || !self.may_part(&plan, &shifted, None)
             {
                 continue;
             }
@@ -159,6 +159,23 @@ impl Workpiece<'_> {
         (sides == 3 && euler == 1 && whole && patch.len() > 1).then_some(patch)
     }
 
+    /// What is beside the edges of a ring that a plan cuts.
+    fn cut(&self, ring: [VertexId; 3], births: &[VertexId], plan: &Plan) -> Option<Cut> {
+        let mesh = self.surface.connectivity();
+        let &[a, b, c] = births else { return None };
+        let moves = |t| plan.changed().iter().any(|&(changed, _)| changed == t);
+        let beside = |k: usize, moved: bool| {
+            let edge = mesh.edge_between(ring[k], ring[(k + 1) % 3])?;
+            let mut sides = mesh.around_edge(edge).filter(|h| moves(h.triangle()) == moved);
+            Some(self.at(mesh.apex(sides.next()?)))
+        };
+        let mut apexes = [[DVec3::ZERO; 2]; 3];
+        for (k, apexes) in apexes.iter_mut().enumerate() {
+            *apexes = [beside(k, false)?, beside(k, true)?];
+        }
+        Some(Cut { ring, copies: [a, b, c], places: ring.map(|v| self.at(v)), apexes })
+    }
+
     /// Cuts the surface along a ring of three edges. Whether it did.
     pub(crate) fn part_along_ring(&mut self, ring: [VertexId; 3]) -> bool {
         if ring.iter().any(|&v| self.immovable(v)) {
@@ -184,16 +201,21 @@ impl Workpiece<'_> {
                 [side(false), side(true)]
             })
             .collect();
+        let Some(cut) = self.cut(ring, &births, &plan) else {
+            self.report.refused.topology += 1;
+            return false;
+        };
         for shift in SHIFTS {
             let mut plan = plan.clone();
-            let shifted: Vec<(VertexId, DVec3)> = (0..3)
+            let shifted: Vec<Shifted> = (0..3)
                 .flat_map(|k| {
+                    let here = self.at(ring[k]);
                     [(ring[k], ways[k][0]), (births[k], ways[k][1])]
-                        .map(|(v, way)| (v, self.at(ring[k]) + shift * way))
+                        .map(|(v, way)| (v, [here, here + shift * way]))
                 })
                 .collect();
-            if shifted.iter().any(|&(v, place)| plan.place(v, place).is_err())
-                || !self.may_part(&plan, &shifted)
+            if shifted.iter().any(|&(v, [_, place])| plan.place(v, place).is_err())
+                || !self.may_part(&plan, &shifted, Some(&cut))
             {
                 continue;
             }
