@@ -47,6 +47,24 @@ fn boxes_face_to_face_become_one() {
     assert!((volume(&both) - before).abs() < 0.1);
 }
 
+/// A sheet of one triangle that is much smaller than edges are to be, with a corner so blunt that its boundary goes straight on.
+#[test]
+fn small_sheets_vanish_only_as_changes_of_topology() {
+    let sheet = || {
+        let positions = [[0.0, 0.0, 0.0], [1.0, 0.02, 0.0], [2.0, 0.0, 0.0]].map(DVec3::from);
+        let soup =
+            TriangleSoup { positions: positions.to_vec(), triangles: vec![[0, 1, 2]], ..Default::default() };
+        TriMesh::new(soup).unwrap()
+    };
+    let left = |enabled: bool| {
+        let topology = TopologyParameters { enabled, ..TopologyParameters::default() };
+        let mut one = tracker(&sheet(), TrackerParameters { topology, ..with_topology(8.0) });
+        improve(&mut one, 3);
+        one.surface().connectivity().triangle_count()
+    };
+    assert_eq!([true, false].map(left), [0, 1]);
+}
+
 /// With topology off nothing of that happens.
 #[test]
 fn switched_off_nothing_merges_or_parts() {

@@ -132,7 +132,10 @@ impl Workpiece<'_> {
         let mut plan = self.surface.plan_collapse(edge, kept, 0.5).map_err(|_| Reason::Topology)?;
         plan.place(kept, place).map_err(|_| Reason::Shape)?;
         let cancelled = plan.removed().len() > self.surface.connectivity().edge_triangles(edge);
-        if cancelled && !self.topology.enabled {
+        // Nothing would be left of a small open sheet.
+        let vanishes =
+            plan.removed().len() == self.triangles_of(self.surface.connectivity().ends(edge)).len();
+        if (cancelled || vanishes) && !self.topology.enabled {
             return Err(Reason::Topology);
         }
         let replacement = Replacement::new(self.surface, &plan);
