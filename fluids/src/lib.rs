@@ -10,7 +10,7 @@
 //!
 //! # What it holds today
 //! * [`procedural`]: flow without simulation, from formulas with exact curls.
-//! * [`smoke`]: smoke as a surface: which surfaces are released, when and where.
+//! * [`smoke`]: smoke as a surface that is released over time and carried by a flow.
 //! * [`volume_rendering`]: the picture of uniform smoke inside a closed surface.
 
 #![forbid(unsafe_code)]

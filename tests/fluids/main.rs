@@ -4,4 +4,5 @@
 #![allow(clippy::print_stdout, reason = "a test tells its figures")]
 
 mod procedural;
+mod smoke;
 mod volume_rendering;

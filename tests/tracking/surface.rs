@@ -1,5 +1,6 @@
 //! The state of the surface tracker: connectivity, attributes, masses and the log.
 
+mod append;
 mod attributes;
 mod construction;
 mod named;

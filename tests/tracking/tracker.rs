@@ -1,6 +1,7 @@
 //! The tracker as a whole: convergence to exact solutions, random motions, steps that fail.
 
 mod figures;
+mod immersed;
 mod random;
 mod steps;
 

@@ -1,18 +1,29 @@
-//! Smoke as a surface: what comes into being, when and where.
+//! Smoke as a surface: a mesh encloses uniform smoke, and a flow carries it \[Brochu12, chapter 5\].
 //!
 //! # What it holds
 //! * [`Emission`]: surfaces that are released over time, as data; [`Schedule`]: at which times.
+//! * [`SmokeSimulation`]: releases and carries them; [`SmokeParameters`] says how, [`SmokeStep`] what a step did, [`SmokeState`] where
+//!   a run stands.
 //!
 //! # What it promises
 //! * An emission depends on its parameters and the index of the release alone, so a run that is resumed releases what one that was
 //!   never stopped does, bit for bit.
 //! * Every release falls into exactly one of the steps that a run takes, however they divide the time.
-//!
-//! # What it does not promise
-//! Anything about released surfaces afterwards: that they stay apart, or free of intersections.
+//! * What a run promises is in [`SmokeSimulation`].
 
+mod carrier;
 mod emission;
+mod error;
+mod parameters;
+mod report;
 mod schedule;
+mod simulation;
+mod state;
 
 pub use emission::{Emission, EmissionError, EmittedShape, Joining};
+pub use error::{SmokeError, SmokeParameterError};
+pub use parameters::{OverBudget, SmokeParameters};
+pub use report::{Refusal, Released, SmokeStep};
 pub use schedule::{Release, Schedule};
+pub use simulation::SmokeSimulation;
+pub use state::SmokeState;

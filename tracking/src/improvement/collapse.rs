@@ -144,7 +144,7 @@ impl Workpiece<'_> {
         if !self.small_volume(&replacement.before, place, self.parameters.max_volume_change_rel) {
             return Err(Reason::Volume);
         }
-        if !replacement.keeps_embedded(self.surface, self.broad_phase, place) {
+        if !self.keeps_embedded(&replacement, place) {
             return Err(Reason::Intersection);
         }
         if cancelled {

@@ -63,7 +63,7 @@ impl Workpiece<'_> {
                 && bounds.iter().any(|&[a, b, c]| tetrahedron_contains([a, b, c, tip], p))
         };
         let boxes: Vec<Box3> = come.iter().map(|t| Box3::of(t.map(at))).collect();
-        self.broad_phase.all_triangles_near(&around, |t, own| {
+        self.all_triangles_near(&around, |t, own| {
             if gone.contains(&t) {
                 return true;
             }

@@ -87,7 +87,7 @@ impl Workpiece<'_> {
             return false;
         };
         let replacement = Replacement::new(self.surface, &plan);
-        if !replacement.keeps_embedded(self.surface, self.broad_phase, pc) {
+        if !self.keeps_embedded(&replacement, pc) {
             self.report.refused.intersection += 1;
             return false;
         }

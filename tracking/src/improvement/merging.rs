@@ -30,9 +30,9 @@ impl Workpiece<'_> {
     /// Zips near edges together. The broad phase knows all elements at rest.
     pub(crate) fn merge_close_edges(&mut self) {
         let distance = self.topology.merge_distance_rel * self.length;
-        let Ok(pairs) = self.broad_phase.edge_edge_pairs(self.surface.connectivity(), distance) else {
-            return;
-        };
+        // Who may pass through itself does not merge.
+        let Some(broad_phase) = self.broad_phase.as_deref() else { return };
+        let Ok(pairs) = broad_phase.edge_edge_pairs(self.surface.connectivity(), distance) else { return };
         let near = |&pair: &[EdgeId; 2]| Some((self.gap(pair, distance)?, pair));
         let mut candidates: Vec<(f64, [EdgeId; 2])> = pairs.par_iter().filter_map(near).collect();
         candidates.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -98,7 +98,7 @@ impl Workpiece<'_> {
             let gone: Vec<TriId> = plan.removed().to_vec();
             self.report.cancelled += consequences.cancelled.len() as u64;
             let outcome = self.surface.apply(plan);
-            self.broad_phase.set_triangles(self.surface, gone.into_iter().chain(outcome.triangles));
+            self.follow_triangles(gone.into_iter().chain(outcome.triangles));
             self.report.merges += 1;
             return;
         }

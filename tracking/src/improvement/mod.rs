@@ -11,7 +11,8 @@
 //!
 //! # What it promises
 //! * A surface that is embedded stays so: every change is admitted by exact predicates first (`embedding`, `parting`,
-//!   `merging`), and nothing passes through anything.
+//!   `merging`), and nothing passes through anything. Not so in an [`ImmersedTracker`](crate::tracker::ImmersedTracker), which asks
+//!   for shapes and volumes alone.
 //! * With topology switched off no change of topology is made: components, holes, boundaries stay.
 //! * All lengths are relative to a reference length: times a power of two, surface and reference give the same changes, and the
 //!   same bits, scaled; as long as squares of lengths are normal numbers (edges from 1e-150 to 1e150).
@@ -52,10 +53,11 @@ use crate::surface::{EventLog, MovingSurface};
 use sizing::Sizing;
 use workpiece::Workpiece;
 
-/// What the static operations work on: the surface, and the broad phase that has followed it at rest.
+/// What the static operations work on: the surface, and the broad phase that has followed it at rest; without one the surface may
+/// intersect itself, and nothing merges.
 pub(crate) struct Stage<'a> {
     pub(crate) surface: &'a mut MovingSurface,
-    pub(crate) broad_phase: &'a mut BroadPhase,
+    pub(crate) broad_phase: Option<&'a mut BroadPhase>,
     pub(crate) parameters: &'a ImprovementParameters,
     pub(crate) topology: &'a TopologyParameters,
     pub(crate) length: f64,
@@ -67,13 +69,13 @@ impl Stage<'_> {
         work: impl FnOnce(&mut Workpiece<'_>),
     ) -> Result<(ImprovementReport, EventLog), BroadPhaseError> {
         let earlier = self.surface.take_log();
-        if !earlier.is_empty() {
-            self.broad_phase.follow(self.surface, Motion::Rest, &earlier)?;
+        if let (false, Some(broad_phase)) = (earlier.is_empty(), &mut self.broad_phase) {
+            broad_phase.follow(self.surface, Motion::Rest, &earlier)?;
         }
         let sizing = Sizing::new(self.surface, self.length, self.parameters.curvature.as_ref());
         let mut piece = Workpiece {
             surface: &mut *self.surface,
-            broad_phase: &mut *self.broad_phase,
+            broad_phase: self.broad_phase.as_deref_mut(),
             parameters: self.parameters,
             topology: self.topology,
             length: self.length,
@@ -85,7 +87,9 @@ impl Stage<'_> {
         work(&mut piece);
         let report = piece.report;
         let log = self.surface.take_log();
-        self.broad_phase.follow(self.surface, Motion::Rest, &log)?;
+        if let Some(broad_phase) = &mut self.broad_phase {
+            broad_phase.follow(self.surface, Motion::Rest, &log)?;
+        }
         Ok((report, log))
     }
 

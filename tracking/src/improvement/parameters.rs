@@ -81,7 +81,7 @@ pub struct ImprovementParameters {
     pub crease_angle: f64,
     /// Shorter edges where the surface is curved; none by default.
     pub curvature: Option<CurvatureAdaption>,
-    /// No edge is split once there are as many triangles. Default: 8 million, some gigabytes.
+    /// No edge is split if there were more triangles afterwards. Default: 8 million, some gigabytes.
     pub most_triangles: usize,
     /// Each can be switched off.
     pub split: bool,

@@ -96,7 +96,7 @@ impl Workpiece<'_> {
         }
         let swept: Vec<Box3> = movers.iter().map(|m| Box3::of(m.from.into_iter().chain(m.to))).collect();
         let around = swept.iter().fold(Box3::EMPTY, |all, b| all.union(b));
-        self.broad_phase.all_triangles_near(&around, |t, own| {
+        self.all_triangles_near(&around, |t, own| {
             if old.contains(&t) {
                 return true;
             }

@@ -84,7 +84,7 @@ impl Workpiece<'_> {
             let mut touched: Vec<_> = plan.changed().iter().map(|&(t, _)| t).collect();
             touched.extend(self.surface.connectivity().star(v).map(|h| h.triangle()));
             self.surface.apply(plan);
-            self.broad_phase.set_triangles(self.surface, touched.into_iter());
+            self.follow_triangles(touched.into_iter());
             births.iter().for_each(|&birth| self.sizing.copied(birth, v));
             self.report.separations += 1;
             return;
@@ -105,7 +105,7 @@ impl Workpiece<'_> {
                 || replacement.old.len() != patch.len()
                 || !self.keeps_normals(&replacement.before, &after)
                 || !self.small_volume(&replacement.before, tip, self.parameters.max_volume_change_rel)
-                || !replacement.keeps_embedded(self.surface, self.broad_phase, tip)
+                || !self.keeps_embedded(&replacement, tip)
             {
                 continue;
             }
@@ -225,7 +225,7 @@ impl Workpiece<'_> {
                 .map(|h| h.triangle())
                 .collect();
             let outcome = self.surface.apply(plan);
-            self.broad_phase.set_triangles(self.surface, touched.into_iter().chain(outcome.triangles));
+            self.follow_triangles(touched.into_iter().chain(outcome.triangles));
             births.iter().zip(ring).for_each(|(&birth, v)| self.sizing.copied(birth, v));
             self.report.separations += 1;
             return true;

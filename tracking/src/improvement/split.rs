@@ -59,7 +59,8 @@ impl Workpiece<'_> {
     /// Splits an edge; the new vertex, unless it is refused.
     pub(crate) fn split(&mut self, edge: EdgeId) -> Option<VertexId> {
         let ends = self.surface.connectivity().ends(edge);
-        if self.surface.connectivity().triangle_count() >= self.parameters.most_triangles {
+        let mesh = self.surface.connectivity();
+        if mesh.triangle_count() + mesh.edge_triangles(edge) > self.parameters.most_triangles {
             self.report.refused.budget += 1;
             return None;
         }
@@ -83,7 +84,7 @@ impl Workpiece<'_> {
             if scheme && !self.split_is_gentle(&replacement, place) {
                 continue;
             }
-            if !replacement.keeps_embedded(self.surface, self.broad_phase, place) {
+            if !self.keeps_embedded(&replacement, place) {
                 continue;
             }
             self.carry_out(plan, &replacement);

@@ -8,12 +8,14 @@ use super::{ImprovementParameters, TopologyParameters};
 use crate::broad_phase::BroadPhase;
 use crate::surface::{HalfEdge, MovingSurface, Outcome, Plan};
 use glam::DVec3;
+use welter_meshing::spatial::Box3;
 use welter_meshing::surface::{EdgeId, TriId, VertexId};
 
 /// See the module.
 pub(crate) struct Workpiece<'a> {
     pub(crate) surface: &'a mut MovingSurface,
-    pub(crate) broad_phase: &'a mut BroadPhase,
+    /// None where the surface may intersect itself: then no change is asked whether it keeps it embedded.
+    pub(crate) broad_phase: Option<&'a mut BroadPhase>,
     pub(crate) parameters: &'a ImprovementParameters,
     pub(crate) topology: &'a TopologyParameters,
     /// The reference length of the tracker.
@@ -88,7 +90,26 @@ impl Workpiece<'_> {
     pub(crate) fn carry_out(&mut self, plan: Plan, replacement: &Replacement) -> Outcome {
         let outcome = self.surface.apply(plan);
         let touched = replacement.old.iter().chain(&outcome.triangles).copied();
-        self.broad_phase.set_triangles(self.surface, touched);
+        self.follow_triangles(touched);
         outcome
+    }
+
+    /// Takes in that some triangles came, went or have other corners.
+    pub(crate) fn follow_triangles(&mut self, touched: impl Iterator<Item = TriId>) {
+        if let Some(broad_phase) = &mut self.broad_phase {
+            broad_phase.set_triangles(self.surface, touched);
+        }
+    }
+
+    /// Whether a change keeps the surface embedded, where that is asked for; `tip` is a corner of all new triangles.
+    pub(crate) fn keeps_embedded(&self, replacement: &Replacement, tip: DVec3) -> bool {
+        self.broad_phase
+            .as_deref()
+            .is_none_or(|broad_phase| replacement.keeps_embedded(self.surface, broad_phase, tip))
+    }
+
+    /// Whether something holds for all triangles whose boxes are near, where the surface is to stay embedded.
+    pub(crate) fn all_triangles_near(&self, around: &Box3, holds: impl FnMut(TriId, &Box3) -> bool) -> bool {
+        self.broad_phase.as_deref().is_none_or(|broad_phase| broad_phase.all_triangles_near(around, holds))
     }
 }

@@ -49,6 +49,8 @@ pub enum EventKind {
         /// Those that the other side got in their place.
         copies: [VertexId; 3],
     },
+    /// A mesh was added beside the surface.
+    Append,
     /// All elements were numbered anew, without gaps.
     Compact,
 }

@@ -31,6 +31,7 @@
 //! the triangles there with each other, so they cost the square of their number, which shows at vertices of thousands.
 //! Compaction is linear in the number of elements.
 
+mod append;
 mod attributes;
 mod connectivity;
 mod log;
@@ -38,6 +39,7 @@ mod mass;
 mod moving_surface;
 mod operations;
 
+pub use append::AppendError;
 pub use attributes::{Attribute, AttributeError, AttributeSet, AttributeValue, CustomRule, Inherited, Rule};
 pub use connectivity::{
     ConnectivityDefect, Consequences, DoubledTriangles, HalfEdge, RadialConnectivity, Refusal, SurfaceDefects,

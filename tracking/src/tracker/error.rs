@@ -4,6 +4,7 @@ use crate::broad_phase::BroadPhaseError;
 use crate::flows::FlowError;
 use crate::improvement::ParameterError;
 use crate::integration::IntegrationError;
+use crate::surface::{AppendError, VertexValueError};
 use thiserror::Error;
 use welter_meshing::Cancelled;
 
@@ -14,9 +15,15 @@ pub enum TrackerError {
     /// A parameter is out of range.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
+    /// What is to be added is no surface.
+    #[error(transparent)]
+    Append(#[from] AppendError),
     /// The flow predicts nothing.
     #[error(transparent)]
     Flow(#[from] FlowError),
+    /// The flow gives a position that is none.
+    #[error(transparent)]
+    Position(#[from] VertexValueError),
     /// The flow made the step longer than asked for, or took no time.
     #[error("the flow made a step of {dt} where at most {asked} was asked for")]
     Step {

@@ -26,10 +26,12 @@
 //! [`integration`].
 
 mod error;
+mod immersed;
 mod parameters;
 mod report;
 
 pub use error::TrackerError;
+pub use immersed::ImmersedTracker;
 pub use parameters::TrackerParameters;
 pub use report::{PhaseSeconds, StepReport};
 
@@ -39,9 +41,10 @@ use crate::improvement::{self, ImprovementReport, ParameterError, Stage};
 use crate::integration::{self, IntegrationParameters, IntegrationReport};
 use crate::surface::{AttributeSet, EventLog, MovingSurface, VertexValueError};
 use glam::DVec3;
+use std::ops::Range;
 use std::time::Instant;
 use welter_meshing::Monitor;
-use welter_meshing::surface::{EdgeId, TriId, VertexId};
+use welter_meshing::surface::{EdgeId, TriId, TriMesh, VertexId};
 
 /// A surface that moves without intersecting itself.
 ///
@@ -106,14 +109,10 @@ impl SurfaceTracker {
         parameters.improvement.validate()?;
         parameters.topology.validate()?;
         parameters.integration.validate()?;
-        let holds = length > 0.0 && length.is_finite() || surface.connectivity().edge_count() == 0;
-        if !holds {
-            let range = "positive and finite: the mean edge length, unless it is given";
-            return Err(ParameterError { parameter: "reference_length", value: length, range }.into());
+        if surface.connectivity().edge_count() > 0 {
+            require_length(length)?;
         }
-        if !time.is_finite() {
-            return Err(ParameterError { parameter: "time", value: time, range: "finite" }.into());
-        }
+        require_time(time)?;
         let _ = surface.compact();
         let _ = surface.take_log();
         let mut broad_phase = BroadPhase::new(&surface, Motion::Rest)?;
@@ -143,6 +142,50 @@ impl SurfaceTracker {
     #[must_use]
     pub fn reference_length(&self) -> f64 {
         self.length
+    }
+
+    /// Lets relative lengths refer to another length from now on.
+    ///
+    /// # Errors
+    /// [`TrackerError::Parameter`] unless it is positive and finite.
+    pub fn set_reference_length(&mut self, length: f64) -> Result<(), TrackerError> {
+        require_length(length)?;
+        self.length = length;
+        Ok(())
+    }
+
+    /// Adds a mesh beside the surface, as [`MovingSurface::append`]; its vertices have these ids until the next step. Time does
+    /// not go on.
+    ///
+    /// ```
+    /// use welter_meshing::{DVec3, Monitor, shapes::{Sphere, sphere}, surface::TriMesh};
+    /// use welter_tracking::surface::MovingSurface;
+    /// use welter_tracking::tracker::{SurfaceTracker, TrackerParameters};
+    ///
+    /// let ball = sphere(&Sphere { edge_length: 0.5, ..Sphere::default() })?;
+    /// let mut tracker = SurfaceTracker::new(MovingSurface::new(&ball)?, TrackerParameters::default())?;
+    /// let mut soup = ball.to_soup();
+    /// assert!(tracker.insert(&ball, &Monitor::none()).is_err(), "it is there already");
+    /// soup.positions.iter_mut().for_each(|p| *p += 3.0 * DVec3::X);
+    /// let added = tracker.insert(&TriMesh::new(soup)?, &Monitor::none())?;
+    /// assert_eq!(added.len(), ball.positions().len());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`TrackerError::Append`] for what is no surface; [`TrackerError::Integration`] with the pairs of triangles if it meets the
+    /// surface or itself, where ids of its triangles are those after the ones that are there; [`TrackerError::Parameter`] if the
+    /// tracker has no reference length, since it had no edges and was given none. The surface is as it was then.
+    pub fn insert(&mut self, mesh: &TriMesh, monitor: &Monitor<'_>) -> Result<Range<u32>, TrackerError> {
+        require_length(self.length)?;
+        let mut surface = self.surface.clone();
+        let added = surface.append(mesh)?;
+        let _ = surface.take_log();
+        let mut broad_phase = BroadPhase::new(&surface, Motion::Rest)?;
+        let at_rest = surface.positions().to_vec();
+        integration::accept(&mut surface, &mut broad_phase, &at_rest, monitor)?;
+        (self.surface, self.broad_phase, self.since_built) = (surface, broad_phase, 0);
+        Ok(added)
     }
 
     /// How far time has gone on.
@@ -276,13 +319,7 @@ impl SurfaceTracker {
 
     /// Where the flow goes, checked.
     fn predict(&self, flow: &dyn Flow, dt: f64, done: &mut Done) -> Result<Prediction, TrackerError> {
-        let clock = Instant::now();
-        let prediction = flow.advance(&self.surface, self.time, dt)?;
-        done.seconds.velocity += clock.elapsed().as_secs_f64();
-        if !(prediction.dt > 0.0 && prediction.dt <= dt) {
-            return Err(TrackerError::Step { dt: prediction.dt, asked: dt });
-        }
-        Ok(prediction)
+        predict(flow, &self.surface, self.time, dt, &mut done.seconds)
     }
 
     /// Puts the vertices elsewhere, unasked; where they were.
@@ -313,7 +350,7 @@ impl SurfaceTracker {
     fn stage(&mut self) -> Stage<'_> {
         Stage {
             surface: &mut self.surface,
-            broad_phase: &mut self.broad_phase,
+            broad_phase: Some(&mut self.broad_phase),
             parameters: &self.parameters.improvement,
             topology: &self.parameters.topology,
             length: self.length,
@@ -410,6 +447,34 @@ impl SurfaceTracker {
         done.seconds.check += clock.elapsed().as_secs_f64();
         Ok(())
     }
+}
+
+/// Where a flow goes, checked.
+fn predict(
+    flow: &dyn Flow,
+    surface: &MovingSurface,
+    time: f64,
+    dt: f64,
+    seconds: &mut PhaseSeconds,
+) -> Result<Prediction, TrackerError> {
+    let clock = Instant::now();
+    let prediction = flow.advance(surface, time, dt)?;
+    seconds.velocity += clock.elapsed().as_secs_f64();
+    if !(prediction.dt > 0.0 && prediction.dt <= dt) {
+        return Err(TrackerError::Step { dt: prediction.dt, asked: dt });
+    }
+    Ok(prediction)
+}
+
+fn require_length(length: f64) -> Result<(), ParameterError> {
+    let range = "positive and finite: the mean edge length, unless it is given";
+    let error = ParameterError { parameter: "reference_length", value: length, range };
+    if length > 0.0 && length.is_finite() { Ok(()) } else { Err(error) }
+}
+
+fn require_time(time: f64) -> Result<(), ParameterError> {
+    let error = ParameterError { parameter: "time", value: time, range: "finite" };
+    if time.is_finite() { Ok(()) } else { Err(error) }
 }
 
 /// What of a tracked surface may be changed from outside: all but positions and connectivity.
