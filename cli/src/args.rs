@@ -1,7 +1,7 @@
 //! The command line: global options and the list of commands.
 
 use crate::commands::{
-    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, shape, track,
+    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, shape, sim, track,
 };
 use crate::progress::ProgressMode;
 use clap::{Parser, Subcommand, value_parser};
@@ -27,7 +27,8 @@ First steps:
   welter check part.stl             is it closed, oriented, and where does it intersect itself?
   welter check --json *.obj         the same for scripts
   welter mesh part.stl -o part.vtu  its volume as hexahedra; where it overlaps itself the sheets stay apart
-  welter track scene.toml -o run    a surface that moves, merges and parts, without ever intersecting itself";
+  welter track scene.toml -o run    a surface that moves, merges and parts, without ever intersecting itself
+  welter sim plume.toml -o run      smoke that is released over time and carried by a flow";
 
 /// Options of every command.
 #[derive(clap::Args, Clone, Debug)]
@@ -64,6 +65,7 @@ pub(crate) enum Command {
     Isosurface(isosurface::Args),
     Mesh(mesh::Args),
     Track(track::Args),
+    Sim(sim::Args),
     Check(check::Args),
     Ccd(ccd::Args),
     Convert(convert::Args),

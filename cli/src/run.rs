@@ -3,7 +3,7 @@
 use crate::args::{Cli, Command};
 use crate::codes::Code;
 use crate::commands::{
-    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, shape, track,
+    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, shape, sim, track,
 };
 use crate::console::{Console, print_error, write_json_once};
 use crate::failure::Failure;
@@ -75,6 +75,7 @@ fn run(cli: Cli) -> Outcome {
         Command::Isosurface(args) => isosurface::run(&args, &run),
         Command::Mesh(args) => mesh::run(&args, &run),
         Command::Track(args) => track::run(&args, &run),
+        Command::Sim(args) => sim::run(&args, &run),
         Command::Replay(args) => replay::run(&args, &run),
         Command::Convert(args) => convert::run(&args, &run),
         Command::Info(args) => info::run(&args, &run),

@@ -19,6 +19,7 @@ mod mesh_of_curves;
 mod outputs;
 mod render;
 mod shape;
+mod sim;
 mod track;
 mod track_runs;
 mod usage;

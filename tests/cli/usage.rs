@@ -9,6 +9,7 @@ const COMMANDS: &[&str] = &[
     "isosurface",
     "mesh",
     "track",
+    "sim",
     "check",
     "ccd",
     "convert",

@@ -12,4 +12,5 @@ pub(crate) mod mesh;
 pub(crate) mod render;
 pub(crate) mod replay;
 pub(crate) mod shape;
+pub(crate) mod sim;
 pub(crate) mod track;

@@ -1,5 +1,6 @@
 //! `welter replay`: runs one step of a run again, from the file that a failure left or from a checkpoint.
 
+use crate::commands::sim;
 use crate::commands::track::{self, Replayed};
 use crate::failure::shown;
 use crate::run::{Outcome, Run};
@@ -23,7 +24,11 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     let failed = FailedStep::read(&args.file)?;
-    let replayed = track::replay(&args.file, &failed, run)?;
+    let replayed = if failed.before.solver == sim::SOLVER {
+        sim::replay(&args.file, &failed, run)?
+    } else {
+        track::replay(&args.file, &failed, run)?
+    };
     run.console.progress.clear();
     let step = failed.before.step + 1;
     let known = failed.failure.as_ref().map(|failure| {

@@ -230,24 +230,56 @@ impl<'t> Settings<'t> {
 
     /// Pairs of numbers, the first of them ascending.
     pub(crate) fn pairs(&mut self, key: &'static str, wanted: &str) -> Result<Vec<[f64; 2]>, Box<Failure>> {
+        self.rows(key, wanted, true)
+    }
+
+    /// As many numbers each, the first of them ascending if they are `ordered`.
+    pub(crate) fn rows<const N: usize>(
+        &mut self,
+        key: &'static str,
+        wanted: &str,
+        ordered: bool,
+    ) -> Result<Vec<[f64; N]>, Box<Failure>> {
         let read = |entry: &Entry<'t>| {
             let list = entry.list().map_err(|_| entry.bad(wanted))?;
-            let mut pairs: Vec<[f64; 2]> = Vec::new();
-            for pair in &list {
-                let both = pair.list().map_err(|_| pair.bad(wanted))?;
-                let numbers = both.iter().map(|one| number(one, FINITE)).collect::<Result<Vec<_>, _>>()?;
-                let [a, b] = numbers[..] else { return Err(pair.bad(wanted)) };
-                if pairs.last().is_some_and(|last| last[0] >= a) {
-                    return Err(pair.bad("a later pair"));
+            let mut rows: Vec<[f64; N]> = Vec::new();
+            for row in &list {
+                let all = row.list().map_err(|_| row.bad(wanted))?;
+                let numbers = all.iter().map(|one| number(one, FINITE)).collect::<Result<Vec<_>, _>>()?;
+                let numbers: [f64; N] = numbers.try_into().map_err(|_| row.bad(wanted))?;
+                if ordered && rows.last().is_some_and(|last| last[0] >= numbers[0]) {
+                    return Err(row.bad("a later pair"));
                 }
-                pairs.push([a, b]);
+                rows.push(numbers);
             }
-            if pairs.is_empty() { Err(entry.bad(wanted)) } else { Ok(pairs) }
+            if rows.is_empty() { Err(entry.bad(wanted)) } else { Ok(rows) }
         };
-        let keep = |pairs: Vec<[f64; 2]>| {
-            Value::List(pairs.iter().map(|pair| Value::List(pair.map(Value::Number).to_vec())).collect())
+        let keep = |rows: Vec<[f64; N]>| {
+            Value::List(rows.iter().map(|row| Value::List(row.map(Value::Number).to_vec())).collect())
         };
         self.value(key, None, read, keep)
+    }
+
+    /// Rows, if they are given.
+    pub(crate) fn optional_rows<const N: usize>(
+        &mut self,
+        key: &'static str,
+        wanted: &str,
+    ) -> Result<Option<Vec<[f64; N]>>, Box<Failure>> {
+        if self.has(key) {
+            return self.rows(key, wanted, true).map(Some);
+        }
+        self.asked.push(key);
+        Ok(None)
+    }
+
+    /// A vector, if it is given.
+    pub(crate) fn optional_vector(&mut self, key: &'static str) -> Result<Option<DVec3>, Box<Failure>> {
+        if self.has(key) {
+            return self.vector(key, None).map(Some);
+        }
+        self.asked.push(key);
+        Ok(None)
     }
 
     /// Two whole numbers from `least` to `most`.

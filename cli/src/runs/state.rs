@@ -22,6 +22,11 @@ impl Writer {
         self.whole(number.to_bits());
     }
 
+    pub(crate) fn numbers(&mut self, numbers: &[f64]) {
+        self.whole(numbers.len() as u64);
+        numbers.iter().for_each(|&number| self.number(number));
+    }
+
     pub(crate) fn points(&mut self, points: &[DVec3]) {
         self.whole(points.len() as u64);
         points.iter().flat_map(DVec3::to_array).for_each(|number| self.number(number));
@@ -62,6 +67,10 @@ impl<'b> Reader<'b> {
         let fits =
             usize::try_from(count).ok().filter(|n| n.checked_mul(size).is_some_and(|n| n <= self.0.len()));
         fits.ok_or_else(|| NoState(format!("{count} elements are announced and are not there")))
+    }
+
+    pub(crate) fn numbers(&mut self) -> Result<Vec<f64>, NoState> {
+        (0..self.count(8)?).map(|_| self.number()).collect()
     }
 
     pub(crate) fn points(&mut self) -> Result<Vec<DVec3>, NoState> {

@@ -9,7 +9,10 @@ mod step_failure;
 mod summary;
 mod surface;
 
-pub(crate) use replay::{Replayed, replay};
+pub(crate) use replay::{Replayed, replay, replayed};
+pub(crate) use scene::{TimeSpec, read_improvement, read_integration, read_output, read_time, read_topology};
+pub(crate) use step_failure::tracker_failure;
+pub(crate) use surface::SurfaceSpec;
 
 use crate::codes::Code;
 use crate::console::Seconds;

@@ -24,7 +24,7 @@ pub(crate) fn replay(file: &Path, step: &FailedStep, run: &Run) -> Result<Replay
     let refuse = |what: String| {
         Failure::new(Code::NoRunFile, what)
             .subject(file.display().to_string())
-            .help("name a file of a run of welter track")
+            .help("name a file of a run of welter track or welter sim")
     };
     let before = &step.before;
     if before.solver != SOLVER {
@@ -39,8 +39,13 @@ pub(crate) fn replay(file: &Path, step: &FailedStep, run: &Run) -> Result<Replay
     if before.step >= scene.time.steps {
         return Err(refuse(format!("it is of step {}, the last of its scene", before.step)));
     }
+    replayed(&mut track, run)
+}
+
+/// What comes of the next step of a solver.
+pub(crate) fn replayed(solver: &mut impl Simulation, run: &Run) -> Result<Replayed, Box<Failure>> {
     let report = |p: Progress| run.console.progress.report(p.stage, p.done, p.total);
-    match track.step(&Monitor::new(Some(&report), None)) {
+    match solver.step(&Monitor::new(Some(&report), None)) {
         Ok(line) => Ok(Replayed::Completed(line)),
         Err(StepProblem::Failed(failed)) => Ok(Replayed::Failed(failed)),
         // Nobody can ask this monitor to stop.

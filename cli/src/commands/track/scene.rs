@@ -33,13 +33,13 @@ pub(super) struct TrackScene {
 
 /// When the steps of a scene end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct TimeSpec {
-    pub(super) step: f64,
-    pub(super) steps: u64,
+pub(crate) struct TimeSpec {
+    pub(crate) step: f64,
+    pub(crate) steps: u64,
     /// The end of the last step.
-    pub(super) end: f64,
+    pub(crate) end: f64,
     /// Most parts that a step is made of where the flow or collisions make it shorter.
-    pub(super) most_substeps: u32,
+    pub(crate) most_substeps: u32,
 }
 
 /// What is known of the surface at the end.
@@ -54,7 +54,7 @@ pub(super) enum Exact {
 
 impl TimeSpec {
     /// When a step ends, counted from 1 on.
-    pub(super) fn end_of(&self, step: u64) -> f64 {
+    pub(crate) fn end_of(&self, step: u64) -> f64 {
         if step == self.steps { self.end } else { step as f64 * self.step }
     }
 }
@@ -80,8 +80,9 @@ impl TrackScene {
             let surface = whole.table("surface", |surface| SurfaceSpec::read(surface, folder))?;
             let flow = whole.table("flow", |flow| SceneFlow::read(flow, seed))?;
             let time = whole.table("time", read_time)?;
-            let improvement = whole.table("improvement", read_improvement)?;
-            let topology = whole.table("topology", read_topology)?;
+            let improvement = whole
+                .table("improvement", |table| read_improvement(table, &ImprovementParameters::default()))?;
+            let topology = whole.table("topology", |table| read_topology(table, true))?;
             let integration = whole.table("integration", read_integration)?;
             let tracker = TrackerParameters {
                 reference_length: improvement.1,
@@ -103,7 +104,7 @@ impl TrackScene {
     }
 }
 
-fn read_time(time: &mut Settings<'_>) -> Result<TimeSpec, Box<Failure>> {
+pub(crate) fn read_time(time: &mut Settings<'_>) -> Result<TimeSpec, Box<Failure>> {
     let step = time.number("step", None, POSITIVE)?;
     let (steps, end) = (time.optional_whole("steps", 1)?, time.optional_number("end", POSITIVE)?);
     let spec = match (steps, end) {
@@ -129,15 +130,20 @@ fn read_time(time: &mut Settings<'_>) -> Result<TimeSpec, Box<Failure>> {
     Ok(TimeSpec { most_substeps: time.small("most_substeps", 1000, 1)?, ..spec })
 }
 
-fn read_improvement(table: &mut Settings<'_>) -> Result<(ImprovementParameters, Option<f64>), Box<Failure>> {
+/// `default` is for what a scene does not say.
+pub(crate) fn read_improvement(
+    table: &mut Settings<'_>,
+    default: &ImprovementParameters,
+) -> Result<(ImprovementParameters, Option<f64>), Box<Failure>> {
     let reference_length = table.optional_number("reference_length", POSITIVE)?;
-    let default = ImprovementParameters::default();
-    let schemes = [
+    let mut schemes = [
         ("butterfly", SplitScheme::Butterfly),
         ("midpoint", SplitScheme::Midpoint),
         ("modified-butterfly", SplitScheme::ModifiedButterfly),
         ("quadric", SplitScheme::Quadric),
     ];
+    // The first choice holds where none is made.
+    schemes.sort_by_key(|&(_, scheme)| scheme != default.split_scheme);
     let most = table.whole("most_triangles", default.most_triangles as u64, 0)?;
     let parameters = ImprovementParameters {
         max_edge_rel: table.number("max_edge_rel", default.max_edge_rel, ANY)?,
@@ -180,17 +186,21 @@ fn read_curvature(table: &mut Settings<'_>) -> Result<CurvatureAdaption, Box<Fai
     })
 }
 
-fn read_topology(table: &mut Settings<'_>) -> Result<TopologyParameters, Box<Failure>> {
+/// `enabled` is for a scene that does not say.
+pub(crate) fn read_topology(
+    table: &mut Settings<'_>,
+    enabled: bool,
+) -> Result<TopologyParameters, Box<Failure>> {
     let default = TopologyParameters::default();
     let parameters = TopologyParameters {
-        enabled: table.flag("enabled", default.enabled)?,
+        enabled: table.flag("enabled", enabled)?,
         merge_distance_rel: table.number("merge_distance_rel", default.merge_distance_rel, ANY)?,
     };
     parameters.validate().map_err(|error| out_of_range(table, &error))?;
     Ok(parameters)
 }
 
-fn read_integration(table: &mut Settings<'_>) -> Result<IntegrationParameters, Box<Failure>> {
+pub(crate) fn read_integration(table: &mut Settings<'_>) -> Result<IntegrationParameters, Box<Failure>> {
     let default = IntegrationParameters::default();
     let parameters = IntegrationParameters {
         check_start: table.flag("check_start", default.check_start)?,
@@ -214,7 +224,7 @@ fn read_integration(table: &mut Settings<'_>) -> Result<IntegrationParameters, B
     Ok(parameters)
 }
 
-fn read_output(table: &mut Settings<'_>) -> Result<(OutputPlan, u64), Box<Failure>> {
+pub(crate) fn read_output(table: &mut Settings<'_>) -> Result<(OutputPlan, u64), Box<Failure>> {
     let every = table.whole("every", 1, 1)?;
     let checkpoint_every = table.whole("checkpoint_every", 10, 1)?;
     let check_every = table.whole("check_every", 1, 0)?;

@@ -159,7 +159,7 @@ impl Simulation for Track<'_> {
                 TrackerError::Cancelled(_) | TrackerError::Integration(IntegrationError::Cancelled(_)) => {
                     StepProblem::Cancelled
                 }
-                error => StepProblem::Failed(Box::new(step_failure::of(&error))),
+                error => StepProblem::Failed(Box::new(step_failure::tracker_failure(&error))),
             })?;
             done.substeps += 1;
             done.least_dt = done.least_dt.min(report.dt);

@@ -16,7 +16,7 @@ use welter_tracking::tracker::TrackerError;
 const LISTED: usize = 1000;
 
 /// A step that the tracker refuses.
-pub(super) fn of(error: &TrackerError) -> StepFailure {
+pub(crate) fn tracker_failure(error: &TrackerError) -> StepFailure {
     let stopped = |stage, details| {
         let failure = Failure::new(Code::StepFailed, error.to_string());
         StepFailure { failure: place(failure, error), stage, details }

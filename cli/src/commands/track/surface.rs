@@ -23,7 +23,7 @@ const MOST_TRIANGLES: f64 = 1e9;
 
 /// What the scene says of the surface.
 #[derive(Clone, Debug)]
-pub(super) struct SurfaceSpec {
+pub(crate) struct SurfaceSpec {
     /// Length of the edges; none for the default of each shape.
     edge_length: Option<f64>,
     parts: Vec<Part>,
@@ -50,7 +50,7 @@ enum Kind {
 
 impl SurfaceSpec {
     /// Files are sought in `folder`; without one they are not looked at.
-    pub(super) fn read(surface: &mut Settings<'_>, folder: Option<&Path>) -> Result<Self, Box<Failure>> {
+    pub(crate) fn read(surface: &mut Settings<'_>, folder: Option<&Path>) -> Result<Self, Box<Failure>> {
         let edge_length = surface.optional_number("edge_length", POSITIVE)?;
         let parts = match surface.tables("parts", |part| Part::read(part, folder))? {
             Some(parts) => parts,
@@ -60,7 +60,7 @@ impl SurfaceSpec {
     }
 
     /// Refuses a surface that would take more memory than there is.
-    pub(super) fn require_memory(&self, scene: &Path) -> Result<(), Box<Failure>> {
+    pub(crate) fn require_memory(&self, scene: &Path) -> Result<(), Box<Failure>> {
         let mut triangles = 0.0;
         for part in &self.parts {
             triangles += part.triangles(self.edge_length)?;
@@ -87,7 +87,7 @@ impl SurfaceSpec {
     }
 
     /// The surface, all parts after one another.
-    pub(super) fn build(&self, progress: &Progress) -> Result<TriMesh, Box<Failure>> {
+    pub(crate) fn build(&self, progress: &Progress) -> Result<TriMesh, Box<Failure>> {
         let mut whole = TriangleSoup::default();
         for part in &self.parts {
             let first = whole.positions.len() as u32;
