@@ -65,6 +65,26 @@ fn small_sheets_vanish_only_as_changes_of_topology() {
     assert_eq!([true, false].map(left), [0, 1]);
 }
 
+/// Two tetrahedra that share one vertex.
+#[test]
+fn singular_vertices_part_only_as_changes_of_topology() {
+    let corners = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]].map(DVec3::from);
+    let mirrored = corners[1..].iter().map(|&p| -p);
+    let positions: Vec<DVec3> = corners.iter().copied().chain(mirrored).collect();
+    let one = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    let other = one.map(|t| t.map(|v| if v == 0 { 0 } else { v + 3 })).map(|[a, b, c]| [a, c, b]);
+    let soup = TriangleSoup { positions, triangles: [one, other].concat(), ..Default::default() };
+    let mesh = TriMesh::new(soup).unwrap();
+    let after = |enabled: bool| {
+        let topology = TopologyParameters { enabled, ..TopologyParameters::default() };
+        let mut both = tracker(&mesh, TrackerParameters { topology, ..with_topology(1.2) });
+        assert_eq!(euler(&both), 3);
+        improve(&mut both, 1);
+        euler(&both)
+    };
+    assert_eq!([true, false].map(after), [4, 3]);
+}
+
 /// With topology off nothing of that happens.
 #[test]
 fn switched_off_nothing_merges_or_parts() {

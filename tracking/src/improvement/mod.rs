@@ -108,7 +108,9 @@ impl Stage<'_> {
                 piece.collapse_short_edges();
                 piece.collapse_small_angles();
             }
-            piece.separate_singular_vertices();
+            if piece.topology.enabled {
+                piece.separate_singular_vertices();
+            }
         })
     }
 

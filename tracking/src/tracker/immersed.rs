@@ -7,7 +7,7 @@
 //!
 //! # What it promises
 //! * Vertices go just where the flow puts them.
-//! * No change of topology: components, holes and boundaries stay. Where remeshing finds singular vertices it parts them.
+//! * No change of topology: components, holes, boundaries and singular vertices stay.
 //! * A step that fails returns an error and leaves the surface as it was.
 //! * The same bits for any number of threads, and with all lengths times a power of two, as for a
 //!   [`SurfaceTracker`](super::SurfaceTracker). As long as that one, with topology switched off, refuses nothing for an intersection and
