@@ -77,7 +77,7 @@ fn main() {
             println!("{threads} threads, topology changes {}", if topology { "on" } else { "off" });
             println!("triangles {}      last  changes", PHASES.map(|p| format!("{p:>8}")).join(" "));
             let mut rows: Vec<(f64, [f64; 7])> = Vec::new();
-            for target in [3_750.0, 15_600.0, 62_500.0, 250_000.0] {
+            for target in [3_750.0, 7_000.0, 15_600.0, 62_500.0, 250_000.0] {
                 // The ball is stretched to 1.6 times its area.
                 if 1.6 * target > largest as f64 {
                     break;

@@ -60,11 +60,13 @@ fn anything_stays_embedded_and_keeps_its_topology() {
             SplitScheme::Butterfly,
             SplitScheme::ModifiedButterfly,
             SplitScheme::Quadric,
-        ][random.below(4) as usize];
+            SplitScheme::Fitted,
+        ][random.below(5) as usize];
         let curvature = (random.below(2) == 0).then(CurvatureAdaption::default);
         let improvement = ImprovementParameters {
             split_scheme,
             curvature,
+            keeps_volume: random.below(2) == 0,
             smoothing: random.below(2) == 0,
             max_edge_rel: random.between(1.2, 2.0),
             small_angle: random.between(0.0, 30.0),

@@ -17,11 +17,15 @@ use welter_tracking::tracker::{SurfaceTracker, TrackerError, TrackerParameters};
 
 fn options(random: &mut Random) -> TrackerParameters {
     let mut coin = |chances: u64| random.below(chances) == 0;
-    let [no_smoothing, no_split, no_flip, no_collapse, fine, topology] =
-        [coin(3), coin(6), coin(6), coin(6), coin(4), !coin(2)];
-    let split_scheme =
-        [SplitScheme::Midpoint, SplitScheme::Butterfly, SplitScheme::ModifiedButterfly, SplitScheme::Quadric]
-            [random.below(4) as usize];
+    let [no_smoothing, no_split, no_flip, no_collapse, fine, topology, keeps_volume] =
+        [coin(3), coin(6), coin(6), coin(6), coin(4), !coin(2), coin(2)];
+    let split_scheme = [
+        SplitScheme::Midpoint,
+        SplitScheme::Butterfly,
+        SplitScheme::ModifiedButterfly,
+        SplitScheme::Quadric,
+        SplitScheme::Fitted,
+    ][random.below(5) as usize];
     let improvement = ImprovementParameters {
         max_edge_rel: random.between(1.1, 2.5),
         max_volume_change_rel: random.between(-4.0, 1.0).exp2(),
@@ -30,6 +34,7 @@ fn options(random: &mut Random) -> TrackerParameters {
         small_angle: random.between(0.0, 30.0),
         max_normal_turn: random.between(20.0, 120.0),
         split_scheme,
+        keeps_volume,
         smoothing: !no_smoothing,
         split: !no_split,
         flip: !no_flip,

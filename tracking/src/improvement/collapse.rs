@@ -97,7 +97,7 @@ impl Workpiece<'_> {
         let (pk, pr) = (self.at(kept), self.at(removed));
         let middle = 0.5 * pk + 0.5 * pr;
         // Where it may go off the edge.
-        let kept_volume = |p: DVec3| match self.parameters.collapses_keep_volume {
+        let kept_volume = |p: DVec3| match self.parameters.keeps_volume {
             true => volume_preserving(&self.triangles_of([a, b]), p),
             false => p,
         };

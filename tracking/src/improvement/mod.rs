@@ -31,6 +31,7 @@ mod embedding;
 mod filling;
 mod flip;
 mod merging;
+mod osculating;
 mod parameters;
 mod parting;
 mod placement;

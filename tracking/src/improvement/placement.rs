@@ -7,12 +7,15 @@
 //! Modified butterfly \[Zorin96\]: where an end has another number of neighbours than six, its own stencil with weights by
 //! the number of its neighbours; the mean of both where both ends do.
 //!
+//! Fitted: on the polynomials through the vertices around the ends, [`Osculating`].
+//!
 //! On a boundary the four-point scheme along it: `(9 (p1 + p2) - (o1 + o2)) / 16`.
 //!
 //! On creases none of these applies: they would round them off. There the middle is taken; and where a stencil reaches beyond
 //! a crease, the point there is replaced by the one of a flat continuation.
 
 use super::SplitScheme;
+use super::osculating::Osculating;
 use super::shape::unit_normal;
 use super::workpiece::Workpiece;
 use crate::quadric::VertexQuadric;
@@ -57,6 +60,7 @@ pub(crate) fn of_split(piece: &Workpiece<'_>, edge: EdgeId) -> Option<DVec3> {
         SplitScheme::Butterfly => butterfly(piece, sides),
         SplitScheme::ModifiedButterfly => modified_butterfly(piece, sides),
         SplitScheme::Quadric => quadric(piece, ends),
+        SplitScheme::Fitted => fitted(piece, ends),
     }
 }
 
@@ -68,6 +72,7 @@ pub(crate) fn of_collapse(piece: &Workpiece<'_>, edge: EdgeId) -> Option<DVec3> 
         SplitScheme::Butterfly => butterfly(piece, sides),
         SplitScheme::ModifiedButterfly => modified_butterfly(piece, sides),
         SplitScheme::Quadric => quadric(piece, piece.surface.connectivity().ends(edge)),
+        SplitScheme::Fitted => fitted(piece, piece.surface.connectivity().ends(edge)),
     }
     .filter(|place| place.is_finite())
 }
@@ -200,4 +205,18 @@ fn quadric(piece: &Workpiece<'_>, ends: [VertexId; 2]) -> Option<DVec3> {
         denominator += weight * slope * slope;
     }
     (denominator > 0.0).then(|| middle + numerator / denominator * normal)
+}
+
+/// The mean of where the polynomials around both ends have the middle of the edge.
+fn fitted(piece: &Workpiece<'_>, ends: [VertexId; 2]) -> Option<DVec3> {
+    let [a, b] = ends;
+    let from = |v: VertexId, w: VertexId| {
+        let fit = Osculating::fit(piece.surface, v, VertexQuadric::new(piece.surface, v).normal())?;
+        let half = 0.5 * (piece.at(w) - piece.at(v));
+        fit.place(half)
+    };
+    match (from(a, b), from(b, a)) {
+        (Some(p), Some(q)) => Some(0.5 * p + 0.5 * q),
+        (p, q) => p.or(q),
+    }
 }

@@ -2,11 +2,14 @@
 //!
 //! Rule: each vertex goes towards the mean of its triangles' centroids, weighted by area, but only in the null space of its
 //! quadric metric tensor: within the surface where that is smooth, along a ridge, not at all at a corner. Then along its mean
-//! normal, so that it takes no volume from its triangles, nor adds any: without, curved surfaces would shrink. On a boundary
+//! normal, so that it takes no volume from its triangles, nor adds any: without, curved surfaces would shrink. Or, if
+//! [`ImprovementParameters::keeps_volume`] is off, onto the polynomial fitted to the vertices around it. On a boundary
 //! it goes along the boundary, towards the middle between its neighbours; immovable vertices and those where more than two
 //! sheets meet stay. No vertex goes farther than [`REACH`] of its nearest neighbour's distance. All go at once, as
 //! a pseudo-motion, which is made safe as any other motion.
 
+use super::ImprovementParameters;
+use super::osculating::Osculating;
 use super::shape::volume_preserving;
 use crate::quadric::VertexQuadric;
 use crate::quadric::scale::Scale;
@@ -20,12 +23,12 @@ use welter_meshing::surface::VertexId;
 const REACH: f64 = 0.25;
 
 /// Where smoothing would put the vertices, by slot.
-pub(crate) fn smoothed(surface: &MovingSurface, ridge_threshold: f64) -> Vec<DVec3> {
+pub(crate) fn smoothed(surface: &MovingSurface, parameters: &ImprovementParameters) -> Vec<DVec3> {
     let slots = 0..surface.connectivity().vertex_slots();
-    slots.into_par_iter().map(|v| place(surface, VertexId::from_index(v), ridge_threshold)).collect()
+    slots.into_par_iter().map(|v| place(surface, VertexId::from_index(v), parameters)).collect()
 }
 
-fn place(surface: &MovingSurface, v: VertexId, ridge_threshold: f64) -> DVec3 {
+fn place(surface: &MovingSurface, v: VertexId, parameters: &ImprovementParameters) -> DVec3 {
     let mesh = surface.connectivity();
     let here = surface.position(v);
     if !mesh.has_vertex(v) || surface.masses()[v.index()].is_infinite() {
@@ -51,9 +54,10 @@ fn place(surface: &MovingSurface, v: VertexId, ridge_threshold: f64) -> DVec3 {
             }
         }
     }
+    let quadric = VertexQuadric::new(surface, v);
     let way = match ends {
         [Some(p), Some(q)] => along_boundary(p, q),
-        _ if weight > 0.0 => VertexQuadric::new(surface, v).null_part(sum / weight, ridge_threshold),
+        _ if weight > 0.0 => quadric.null_part(sum / weight, parameters.ridge_threshold),
         _ => DVec3::ZERO,
     };
     let length = way.length();
@@ -61,6 +65,12 @@ fn place(surface: &MovingSurface, v: VertexId, ridge_threshold: f64) -> DVec3 {
     let way = if length > most { (most / length) * way } else { way };
     let mut moved = here + scale.restored(way);
     if ends == [None; 2] && length > 0.0 {
+        if !parameters.keeps_volume && quadric.rank(parameters.ridge_threshold) == 1 {
+            let fit = Osculating::fit(surface, v, quadric.normal());
+            if let Some(place) = fit.and_then(|fit| fit.place(scale.restored(way))) {
+                return place;
+            }
+        }
         let triangles = mesh.star(v).map(|h| mesh.corners(h.triangle()).map(|w| surface.position(w)));
         moved = volume_preserving(&triangles.collect::<Vec<_>>(), moved);
     }

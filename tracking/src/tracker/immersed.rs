@@ -200,7 +200,7 @@ impl ImmersedTracker {
             return;
         }
         let clock = Instant::now();
-        let ends = smoothed(&self.surface, self.improvement.ridge_threshold);
+        let ends = smoothed(&self.surface, &self.improvement);
         let moved = ends.iter().zip(self.surface.positions()).filter(|(end, start)| end != start);
         report.improvement.smoothed += moved.count() as u64;
         self.place(&ends).expect("smoothing gives finite places");

@@ -370,9 +370,7 @@ impl SurfaceTracker {
     fn smoothed(&self, done: &mut Done) -> Option<Vec<DVec3>> {
         let improvement = &self.parameters.improvement;
         let clock = Instant::now();
-        let ends = improvement
-            .smoothing
-            .then(|| improvement::smoothed(&self.surface, improvement.ridge_threshold))?;
+        let ends = improvement.smoothing.then(|| improvement::smoothed(&self.surface, improvement))?;
         let moved = ends.iter().zip(self.surface.positions()).filter(|(end, start)| end != start);
         done.improvement.smoothed += moved.count() as u64;
         done.seconds.improvement += clock.elapsed().as_secs_f64();

@@ -138,6 +138,7 @@ pub(crate) fn read_improvement(
     let reference_length = table.optional_number("reference_length", POSITIVE)?;
     let mut schemes = [
         ("butterfly", SplitScheme::Butterfly),
+        ("fitted", SplitScheme::Fitted),
         ("midpoint", SplitScheme::Midpoint),
         ("modified-butterfly", SplitScheme::ModifiedButterfly),
         ("quadric", SplitScheme::Quadric),
@@ -149,7 +150,7 @@ pub(crate) fn read_improvement(
         max_edge_rel: table.number("max_edge_rel", default.max_edge_rel, ANY)?,
         min_edge_rel: table.number("min_edge_rel", default.min_edge_rel, ANY)?,
         max_volume_change_rel: table.number("max_volume_change_rel", default.max_volume_change_rel, ANY)?,
-        collapses_keep_volume: table.flag("collapses_keep_volume", default.collapses_keep_volume)?,
+        keeps_volume: table.flag("keeps_volume", default.keeps_volume)?,
         max_split_volume_change_rel: table.number(
             "max_split_volume_change_rel",
             default.max_split_volume_change_rel,
