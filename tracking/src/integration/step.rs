@@ -5,7 +5,7 @@
 //! * After [`Step::detect`], [`Step::colliding`] holds exactly the pairs of elements without a common vertex that touch
 //!   on the straight ways from the surface to the current ends, sorted; but for pairs that do not move at all, which an
 //!   embedded surface keeps apart. Or the step is crowded: there are more of them than the limit, or of pairs that take
-//!   exact integers to tell, which are slow.
+//!   exact integers to tell, which are slow, or of pairs to ask about.
 //! * Only pairs with a vertex whose end has changed since are asked about again.
 //! * Nothing depends on the number of threads: detection collects and sorts, changes are made in order.
 //!
@@ -208,7 +208,7 @@ impl<'a> Step<'a> {
     }
 
     fn limit(&self) -> usize {
-        let vertices = self.surface.connectivity().vertex_count();
+        let vertices = self.surface.connectivity().vertex_count().max(FEW);
         vertices.saturating_mul(self.parameters.most_collisions_per_vertex as usize)
     }
 
@@ -219,14 +219,18 @@ impl<'a> Step<'a> {
             return false;
         }
         let [from, to] = self.places(vertices);
-        if from == to || counter.is_full() {
+        if from == to {
+            return false;
+        }
+        counter.ask();
+        if counter.is_full() {
             return false;
         }
         let (touches, stage) = pair.collides(from, to);
-        if touches {
-            counter.count(1);
-        } else if stage == ccd::Stage::Exact {
+        if stage == ccd::Stage::Exact {
             counter.count(EXACT);
+        } else if touches {
+            counter.count(1);
         }
         touches
     }
@@ -290,9 +294,16 @@ impl<'a> Step<'a> {
     }
 }
 
-/// As so many collisions counts a pair that does not collide but takes exact integers to tell: it costs 100 microseconds, and nothing is
-/// gained by it. Four, so that a crowd of them costs a vertex milliseconds.
+/// As so many collisions counts a pair that takes exact integers to tell, whether it collides or not: it costs 100 microseconds,
+/// some thirty times as much as others. Four, so that a crowd of them costs a vertex half a millisecond.
 const EXACT: usize = 4;
+
+/// Surfaces of fewer vertices have the limits of one of so many: they cost next to nothing.
+const FEW: usize = 64;
+
+/// So many pairs that are asked about count as one collision: a surface that moves by much more than its size has all of its
+/// pairs asked about, which is quadratic. Of a step of an edge length, a vertex asks about one hundred pairs or less.
+const ASKED: usize = 64;
 
 /// What a detection finds.
 struct Found {
@@ -301,26 +312,32 @@ struct Found {
     too_many: bool,
 }
 
-/// Counts what is found, and what takes exact integers to tell, to stop when there is too much of it. Whether it becomes full
+/// Counts what is found, what takes exact integers to tell, and what is asked, to stop when there is too much of it. Whether it becomes full
 /// does not depend on the order.
 struct Counter<'a> {
     found: AtomicUsize,
+    asked: AtomicUsize,
     limit: usize,
     monitor: &'a Monitor<'a>,
 }
 
 impl<'a> Counter<'a> {
     fn new(limit: usize, monitor: &'a Monitor<'a>) -> Self {
-        Self { found: AtomicUsize::new(0), limit, monitor }
+        Self { found: AtomicUsize::new(0), asked: AtomicUsize::new(0), limit, monitor }
     }
 
     fn is_over(&self) -> bool {
         self.found.load(Ordering::Relaxed) > self.limit
+            || self.asked.load(Ordering::Relaxed) / ASKED > self.limit
     }
 
     /// More than the limit; or nobody wants to know any more.
     fn is_full(&self) -> bool {
         self.is_over() || self.monitor.is_cancelled()
+    }
+
+    fn ask(&self) {
+        self.asked.fetch_add(1, Ordering::Relaxed);
     }
 
     fn count(&self, pairs: usize) {
