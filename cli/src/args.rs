@@ -1,7 +1,8 @@
 //! The command line: global options and the list of commands.
 
 use crate::commands::{
-    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, shape, sim, track,
+    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, report, shape,
+    sim, track,
 };
 use crate::progress::ProgressMode;
 use clap::{Parser, Subcommand, value_parser};
@@ -72,6 +73,7 @@ pub(crate) enum Command {
     Info(info::Args),
     Render(render::Args),
     Replay(replay::Args),
+    Report(report::Args),
     Doctor(doctor::Args),
     Completions(completions::Args),
 }

@@ -3,7 +3,8 @@
 use crate::args::{Cli, Command};
 use crate::codes::Code;
 use crate::commands::{
-    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, shape, sim, track,
+    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, report, shape,
+    sim, track,
 };
 use crate::console::{Console, print_error, write_json_once};
 use crate::failure::Failure;
@@ -77,6 +78,7 @@ fn run(cli: Cli) -> Outcome {
         Command::Track(args) => track::run(&args, &run),
         Command::Sim(args) => sim::run(&args, &run),
         Command::Replay(args) => replay::run(&args, &run),
+        Command::Report(args) => report::run(&args, &run),
         Command::Convert(args) => convert::run(&args, &run),
         Command::Info(args) => info::run(&args, &run),
         Command::Doctor(args) => doctor::run(&args, &run),

@@ -18,6 +18,7 @@ mod mesh;
 mod mesh_of_curves;
 mod outputs;
 mod render;
+mod report;
 mod shape;
 mod sim;
 mod track;

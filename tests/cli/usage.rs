@@ -16,6 +16,7 @@ const COMMANDS: &[&str] = &[
     "info",
     "render",
     "replay",
+    "report",
     "doctor",
     "completions",
 ];

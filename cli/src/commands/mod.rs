@@ -11,6 +11,7 @@ pub(crate) mod isosurface;
 pub(crate) mod mesh;
 pub(crate) mod render;
 pub(crate) mod replay;
+pub(crate) mod report;
 pub(crate) mod shape;
 pub(crate) mod sim;
 pub(crate) mod track;

@@ -7,7 +7,7 @@
 //! Does not promise: the same bits from another version of the program.
 //!
 //! Map: [`settings`] reads scenes and [`resolved`] writes them; [`folder`] is found or made under its [`lock`]; [`driver`] is the loop;
-//! [`frames`], [`stats`], [`checkpoint`] and [`record`] are what it writes, [`report`] is made of that in the end; [`container`] is the file
+//! [`frames`], [`stats`], [`checkpoint`] and [`record`] are what it writes, [`report`] is made of that in the end, and of a [`past`] run again; [`container`] is the file
 //! format of checkpoints and of failed steps ([`failed_step`]), [`state`] that of the numbers within.
 
 pub(crate) mod checkpoint;
@@ -17,6 +17,7 @@ pub(crate) mod failed_step;
 mod folder;
 mod frames;
 mod lock;
+mod past;
 mod record;
 mod report;
 pub(crate) mod resolved;
@@ -29,6 +30,7 @@ mod tests;
 pub(crate) use driver::drive;
 pub(crate) use failed_step::StepFailure;
 pub(crate) use folder::{RunFolder, Start};
+pub(crate) use past::PastRun;
 
 use crate::render::Camera;
 use resolved::Resolved;

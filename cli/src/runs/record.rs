@@ -31,6 +31,13 @@ pub(crate) enum Status {
 }
 
 impl Status {
+    const ALL: [Self; 5] = [Self::Running, Self::Finished, Self::Stopped, Self::Interrupted, Self::Failed];
+
+    /// By its name.
+    pub(crate) fn of(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|status| status.name() == name)
+    }
+
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Running => "running",

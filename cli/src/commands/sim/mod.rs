@@ -2,6 +2,7 @@
 
 mod flows;
 mod frames;
+mod report;
 mod scene;
 mod simulation;
 mod solids;
@@ -18,6 +19,7 @@ use crate::runs::failed_step::FailedStep;
 use crate::runs::{Plan, RunFolder, Start, drive};
 use crate::scene::Scene;
 use frames::FrameRange;
+pub(crate) use report::report;
 use scene::SimScene;
 use serde_json::{Map, Value, json};
 use simulation::Smoke;

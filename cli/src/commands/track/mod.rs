@@ -3,6 +3,7 @@
 mod exact;
 mod flow;
 mod replay;
+mod report;
 mod scene;
 mod simulation;
 mod step_failure;
@@ -10,6 +11,7 @@ mod summary;
 mod surface;
 
 pub(crate) use replay::{Replayed, replay, replayed};
+pub(crate) use report::report;
 pub(crate) use scene::{TimeSpec, read_improvement, read_integration, read_output, read_time, read_topology};
 pub(crate) use step_failure::tracker_failure;
 pub(crate) use surface::SurfaceSpec;
@@ -30,7 +32,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// The name of the solver, in run folders.
-const SOLVER: &str = "track";
+pub(crate) const SOLVER: &str = "track";
 
 /// Move a surface through a scene, and keep it from intersecting itself
 #[derive(Debug, clap::Args)]
