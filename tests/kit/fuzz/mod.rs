@@ -10,6 +10,7 @@ mod isosurfaces;
 mod linear;
 mod meshes;
 mod moved;
+mod moving;
 #[cfg(test)]
 mod mutate;
 mod parities;
@@ -31,6 +32,7 @@ pub use isosurfaces::isosurfaces;
 pub use linear::{agrees, linear_systems};
 pub use meshes::{read_obj, read_off, read_ply, read_stl, self_intersecting};
 pub use moved::moved_grid;
+pub use moving::moving_surfaces;
 pub use parities::root_parities;
 pub use patches::patch_parity;
 pub use perturbation::perturbed;
@@ -50,6 +52,7 @@ pub const BODIES: &[(&str, Body)] = &[
     ("isosurfaces", isosurfaces),
     ("linear_systems", linear_systems),
     ("moved_grid", moved_grid),
+    ("moving_surfaces", moving_surfaces),
     ("orientations", orientations),
     ("patch_parity", patch_parity),
     ("perturbed", perturbed),
