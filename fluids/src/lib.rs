@@ -9,12 +9,14 @@
 //! * Convergence orders are stated in the documentation and asserted by tests against analytic solutions.
 //!
 //! # What it holds today
+//! * [`marker_particles`]: smoke as points, which smoke as a surface is measured against.
 //! * [`procedural`]: flow without simulation, from formulas with exact curls.
 //! * [`smoke`]: smoke as a surface that is released over time and carried by a flow.
 //! * [`volume_rendering`]: the picture of uniform smoke inside a closed surface.
 
 #![forbid(unsafe_code)]
 
+pub mod marker_particles;
 pub mod procedural;
 pub mod smoke;
 pub mod volume_rendering;

@@ -46,6 +46,30 @@ pub enum RenderError {
         /// Its age.
         age: f64,
     },
+    /// There is not one age a particle.
+    #[error("{ages} ages for {particles} particles; there must be one a particle, or none at all")]
+    ParticleAges {
+        /// Particles.
+        particles: usize,
+        /// Ages given.
+        ages: usize,
+    },
+    /// A particle is nowhere.
+    #[error("particle {particle} is at ({}, {}, {}), must be somewhere", position.x, position.y, position.z)]
+    Particle {
+        /// Which particle; the first.
+        particle: usize,
+        /// Its position.
+        position: DVec3,
+    },
+    /// The age of a particle is not a number from 0 to the largest of single precision.
+    #[error("the age of particle {particle} is {age}, must be from 0 to {}", f32::MAX)]
+    ParticleAge {
+        /// Which particle; the first.
+        particle: usize,
+        /// Its age.
+        age: f64,
+    },
     /// A direction is zero, or the camera looks along its own upward direction, or the eye is at the target.
     #[error("{name} ({}, {}, {}) gives no direction", value.x, value.y, value.z)]
     Direction {

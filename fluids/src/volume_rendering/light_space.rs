@@ -23,10 +23,11 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice of `resolution` voxels along the longest side of the box, aligned with the light, of some
-    /// points.
+    /// The lattice of `resolution` voxels along the longest side of the box, aligned with the light, of balls
+    /// of one radius, 0 for points.
     pub(super) fn enclosing(
         points: impl Iterator<Item = DVec3>,
+        radius: f64,
         light: DVec3,
         resolution: u32,
     ) -> Result<Self, RenderError> {
@@ -35,7 +36,7 @@ impl Lattice {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for point in points {
             let p = turned(&axes, point);
-            (low, high) = (low.min(p), high.max(p));
+            (low, high) = (low.min(p - radius), high.max(p + radius));
         }
         let extent = high - low;
         let longest = extent.max_element();
@@ -106,7 +107,7 @@ mod tests {
     fn voxels_are_cubes_that_hold_all_points() {
         let points = [DVec3::new(-1.0, 0.5, 0.1), DVec3::new(2.0, 0.9, -0.3), DVec3::new(0.3, 1.7, 0.2)];
         for light in [DVec3::X, DVec3::NEG_Y, DVec3::new(0.3, -0.9, 0.2), DVec3::new(1e-200, 0.0, 1e-201)] {
-            let lattice = Lattice::enclosing(points.into_iter(), light, 31).expect("a few points");
+            let lattice = Lattice::enclosing(points.into_iter(), 0.0, light, 31).expect("a few points");
             assert_eq!(lattice.size.into_iter().max(), Some(31));
             for p in points {
                 let placed = lattice.place(p);
@@ -120,7 +121,7 @@ mod tests {
     #[test]
     fn nothing_needs_no_voxels() {
         for points in [vec![], vec![DVec3::ONE; 3]] {
-            let lattice = Lattice::enclosing(points.into_iter(), DVec3::X, 8).expect("no voxels");
+            let lattice = Lattice::enclosing(points.into_iter(), 0.0, DVec3::X, 8).expect("no voxels");
             assert!(lattice.is_empty());
         }
     }
@@ -128,7 +129,7 @@ mod tests {
     #[test]
     fn too_many_voxels_are_refused() {
         let corners = [DVec3::ZERO, DVec3::ONE];
-        let error = Lattice::enclosing(corners.into_iter(), DVec3::X, 4096);
+        let error = Lattice::enclosing(corners.into_iter(), 0.0, DVec3::X, 4096);
         assert_eq!(error, Err(RenderError::ShadowTexture { size: [4096; 3] }));
     }
 }

@@ -11,6 +11,7 @@
 //!   backdrop  what is behind the smoke: solids by Lambert's law with their shadows, the background
 //!   composite albedo (radiance scatter + ambient alpha) + (1 - alpha) backdrop, after a blur by age if asked for
 //! ```
+//! [`render_particles`] gives the same planes of smoke that is given by marker particles.
 //! [`voxel_volumes()`] gives what the shadow texture is made of: the volume of smoke in each cube of a lattice.
 //!
 //! # What it promises
@@ -59,6 +60,7 @@ mod image;
 mod light_space;
 mod occluders;
 mod parameters;
+mod particles;
 mod picture;
 mod pixels;
 mod project;
@@ -75,6 +77,7 @@ pub use camera::Camera;
 pub use error::RenderError;
 pub use image::Image;
 pub use parameters::{AgeBlur, RenderParameters};
+pub use particles::{ParticleReport, ParticleScene, render_particles};
 pub use picture::{Picture, RenderReport, RenderSeconds, render};
 pub use scene::{InteriorRule, Light, Medium, Scene, Solid};
 pub use voxel_volumes::{VoxelVolumes, voxel_volumes};

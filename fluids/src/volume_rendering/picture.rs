@@ -9,11 +9,11 @@ use welter_meshing::surface::{ClosedOrientedMesh, TriId};
 use super::camera::View;
 use super::light_space::Lattice;
 use super::occluders::DepthMap;
-use super::pixels::Studio;
+use super::pixels::{Planes, Studio};
 use super::scattering::Sampling;
 use super::shadow::Shadow;
 use super::solids::Solids;
-use super::{Image, RenderError, RenderParameters, Scene, blur, composite, project};
+use super::{Image, Light, Medium, RenderError, RenderParameters, Scene, blur, composite, project};
 
 /// What is seen, in planes of one size.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,16 +139,7 @@ pub fn render(
     let (planes, counts) = studio.draw(monitor)?;
     let pixels_end = start.elapsed().as_secs_f64();
 
-    let over = |alpha: &Image<f32>, scatter: &Image<f32>| {
-        composite::composite(alpha, scatter, &planes.backdrop, &scene.light, &scene.medium)
-    };
-    let composite = match &parameters.age_blur {
-        None => over(&planes.alpha, &planes.scatter),
-        Some(blur) => {
-            let (alpha, scatter) = blur::blur(&planes.alpha, &planes.scatter, &planes.age, blur);
-            over(&alpha, &scatter)
-        }
-    };
+    let composite = finished(&planes, parameters, &scene.light, &scene.medium);
     let total = start.elapsed().as_secs_f64();
     let seconds = RenderSeconds {
         shadow: shadow_end,
@@ -168,6 +159,25 @@ pub fn render(
     };
     let (alpha, scatter, age, backdrop) = (planes.alpha, planes.scatter, planes.age, planes.backdrop);
     Ok((Picture { alpha, scatter, age, backdrop, composite }, report))
+}
+
+/// The composite of planes, blurred by age if asked for.
+pub(super) fn finished(
+    planes: &Planes,
+    parameters: &RenderParameters,
+    light: &Light,
+    medium: &Medium,
+) -> Image<[f32; 3]> {
+    let over = |alpha: &Image<f32>, scatter: &Image<f32>| {
+        composite::composite(alpha, scatter, &planes.backdrop, light, medium)
+    };
+    match &parameters.age_blur {
+        None => over(&planes.alpha, &planes.scatter),
+        Some(blur) => {
+            let (alpha, scatter) = blur::blur(&planes.alpha, &planes.scatter, &planes.age, blur);
+            over(&alpha, &scatter)
+        }
+    }
 }
 
 /// The power of two by which coordinates are multiplied so that the largest is from 1/2 to 1, as far as there
@@ -193,7 +203,8 @@ fn shadow(
 ) -> Result<Shadow, RenderError> {
     let corners = corners_of(scene.smoke, positions);
     let light = scene.light.direction;
-    let lattice = Lattice::enclosing(corners.iter().flatten().copied(), light, parameters.shadow_resolution)?;
+    let lattice =
+        Lattice::enclosing(corners.iter().flatten().copied(), 0.0, light, parameters.shadow_resolution)?;
     let triangles = |mesh: &welter_meshing::surface::TriMesh| {
         let count = mesh.triangles().len();
         (0..count).map(|t| mesh.corners(TriId::from_index(t)).map(|p| p * scale)).collect::<Vec<_>>()

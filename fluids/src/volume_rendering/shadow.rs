@@ -50,7 +50,18 @@ impl Shadow {
             corners.par_iter().with_min_len(4096).map(|t| t.map(|p| lattice.place_inside(p))).collect()
         };
         let volumes = voxels::volumes(&placed, lattice.size);
-        let texture = Texture::new(&volumes, lattice.size, rule);
+        Self::of_volumes(lattice, &volumes, solids, extinction, rule)
+    }
+
+    /// The texture of smoke of which the volume in each voxel is known, in voxels.
+    pub(super) fn of_volumes(
+        lattice: Lattice,
+        volumes: &[f64],
+        solids: Option<DepthMap>,
+        extinction: f64,
+        rule: InteriorRule,
+    ) -> Self {
+        let texture = Texture::new(volumes, lattice.size, rule);
         let optical_depth = (extinction * lattice.spacing).min(f64::from(f32::MAX)) as f32;
         Self { lattice, texture, solids, optical_depth }
     }

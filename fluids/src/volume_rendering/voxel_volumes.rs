@@ -52,7 +52,7 @@ pub fn voxel_volumes(
     let scale = scale_of(smoke.positions().iter());
     let positions: Vec<DVec3> = smoke.positions().iter().map(|&p| p * scale).collect();
     let corners = corners_of(smoke, &positions);
-    let lattice = Lattice::enclosing(corners.iter().flatten().copied(), light, resolution)?;
+    let lattice = Lattice::enclosing(corners.iter().flatten().copied(), 0.0, light, resolution)?;
     let mut volumes = Vec::new();
     if !lattice.is_empty() {
         let placed: Vec<_> = corners.iter().map(|t| t.map(|p| lattice.place_inside(p))).collect();

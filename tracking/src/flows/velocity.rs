@@ -31,6 +31,54 @@ pub enum Scheme {
     Rk4,
 }
 
+/// A place where a field has no velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoVelocity {
+    /// Where.
+    pub position: DVec3,
+    /// When.
+    pub time: f64,
+    /// What the field gave, which is not finite.
+    pub velocity: DVec3,
+}
+
+impl Scheme {
+    /// Where a point is after a step of `dt` with a field. It need not be finite: a sum can overflow.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use welter_tracking::flows::Scheme;
+    /// let growth = |p: DVec3, _: f64| p;
+    /// assert_eq!(Scheme::Euler.follow(&growth, DVec3::X, 0.0, 0.5), Ok(1.5 * DVec3::X));
+    /// let end = Scheme::Rk4.follow(&growth, DVec3::X, 0.0, 0.5).map(|end| end.x);
+    /// assert!(end.is_ok_and(|x| (x - 0.5_f64.exp()).abs() < 3e-4));
+    /// ```
+    ///
+    /// # Errors
+    /// [`NoVelocity`]: where the velocity is infinite or not a number.
+    pub fn follow(
+        self,
+        field: &impl VelocityField,
+        start: DVec3,
+        time: f64,
+        dt: f64,
+    ) -> Result<DVec3, NoVelocity> {
+        let at = |position: DVec3, time: f64| {
+            let velocity = field.velocity(position, time);
+            if velocity.is_finite() { Ok(velocity) } else { Err(NoVelocity { position, time, velocity }) }
+        };
+        let v1 = at(start, time)?;
+        if self == Self::Euler {
+            return Ok(start + dt * v1);
+        }
+        let half = 0.5 * dt;
+        let v2 = at(start + half * v1, time + half)?;
+        let v3 = at(start + half * v2, time + half)?;
+        let v4 = at(start + dt * v3, time + dt)?;
+        Ok(start + dt * ((v1 + 2.0 * (v2 + v3) + v4) / 6.0))
+    }
+}
+
 /// The flow of a velocity field.
 ///
 /// ```
@@ -61,26 +109,11 @@ impl<F: VelocityField> Advection<F> {
         Self { field, scheme: Scheme::Rk4 }
     }
 
-    fn velocity(&self, vertex: VertexId, position: DVec3, time: f64) -> Result<DVec3, FlowError> {
-        let velocity = self.field.velocity(position, time);
-        if velocity.is_finite() {
-            Ok(velocity)
-        } else {
-            Err(FlowError::Velocity { vertex, position, time, velocity })
-        }
-    }
-
     fn end(&self, vertex: VertexId, start: DVec3, time: f64, dt: f64) -> Result<DVec3, FlowError> {
-        let at = |position: DVec3, time: f64| self.velocity(vertex, position, time);
-        let v1 = at(start, time)?;
-        if self.scheme == Scheme::Euler {
-            return Ok(start + dt * v1);
-        }
-        let half = 0.5 * dt;
-        let v2 = at(start + half * v1, time + half)?;
-        let v3 = at(start + half * v2, time + half)?;
-        let v4 = at(start + dt * v3, time + dt)?;
-        Ok(start + dt * ((v1 + 2.0 * (v2 + v3) + v4) / 6.0))
+        self.scheme.follow(&self.field, start, time, dt).map_err(|stray| {
+            let NoVelocity { position, time, velocity } = stray;
+            FlowError::Velocity { vertex, position, time, velocity }
+        })
     }
 }
 
