@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a panic is the report of a test")]
 #![allow(clippy::print_stdout, reason = "a test tells its figures")]
 
+mod marker_particles;
 mod procedural;
 mod smoke;
 mod volume_rendering;

@@ -13,6 +13,7 @@ pub mod evolution;
 pub mod exact;
 pub mod fuzz;
 pub mod generate;
+pub mod marker_particles;
 pub mod mesher;
 pub mod moving;
 pub mod procedural;
