@@ -33,7 +33,7 @@ use welter_meshing::surface::{ClosedOrientedMesh, TriMesh};
 const EDGE: f64 = 0.0334;
 
 /// Radii of particles that are tried, in units of the cube root of their volume.
-const RADII: [f64; 5] = [1.0, 1.4, 2.0, 2.8, 4.0];
+const RADII: [f64; 4] = [1.0, 1.4, 2.0, 2.8];
 
 /// Extinctions: thin and thick smoke, of optical depths of 1 and 5 through a puff.
 const EXTINCTIONS: [f64; 2] = [2.0, 10.0];
@@ -142,16 +142,12 @@ fn write(picture: &Picture, directory: &Path, name: &str) -> std::io::Result<()>
     file.write_all(&plane.pixels().iter().map(byte).collect::<Vec<u8>>())
 }
 
-fn row(name: &str, run: &Run, radius: f64, seconds: f64, differences: &[Difference; 3]) {
+/// One line of the table: differences to the reference, and of the composite to the dense cloud.
+fn row(run: &Run, radius: f64, seconds: f64, differences: &[Difference; 3], to_cloud: Difference) {
     let radius = if radius > 0.0 { format!("{radius:.1}") } else { String::from("-") };
-    print!(
-        "{name:38} {:>9.3} {:>9.1} {:>8.1} {:>7.2} {radius:>6} ",
-        run.bytes as f64 / 1e6,
-        run.bytes_of_frames as f64 / 1e6,
-        run.seconds,
-        seconds
-    );
-    for it in differences {
+    let [last, all] = [run.bytes, run.bytes_of_frames].map(|bytes| bytes as f64 / 1e6);
+    print!("{:42} {last:>8.3} {all:>8.1} {:>8.1} {seconds:>7.2} {radius:>6} ", run.name, run.seconds);
+    for it in differences.iter().chain([&to_cloud]) {
         print!("  {:.4} {:.4}", it.root_mean_square, it.percentile);
     }
     println!();
@@ -168,7 +164,8 @@ fn main() {
     let fine = surface("reference: edges of a third", edge / 3.0);
     let equal = coarse.bytes / MarkerState::BYTES_PER_PARTICLE;
     let dense = option("--particles=").and_then(|n| n.parse().ok()).unwrap_or(2 * 64 * equal);
-    let mut runs = vec![coarse, particles(&format!("dense cloud"), dense)];
+    let cloud = particles("dense cloud", dense);
+    let mut runs = vec![coarse];
     for factor in [1, 4, 16, 64] {
         runs.push(particles(&format!("{factor} x the bytes"), factor * equal));
     }
@@ -186,13 +183,20 @@ fn main() {
         println!();
         println!("extinction {extinction}, {covered} pixels covered");
         println!(
-            "{:38} {:>9} {:>9} {:>8} {:>7} {:>6}   alpha         scatter        composite",
+            "{:42} {:>8} {:>8} {:>8} {:>7} {:>6}   alpha          scatter        composite      to the cloud",
             "", "MB", "all MB", "carry s", "draw s", "radius"
         );
-        row(&fine.name, &fine, 0.0, seconds, &[Difference::default(); 3]);
+        let (second, radius, cloud_seconds, of_cloud) = best(&cloud, extinction, &reference);
+        let [.., to_cloud] = differences(&reference, &second);
+        row(&fine, 0.0, seconds, &[Difference::default(); 3], to_cloud);
+        row(&cloud, radius, cloud_seconds, &of_cloud, Difference::default());
+        if let Some(directory) = &directory {
+            write(&second, directory, &format!("cloud-{extinction}")).expect("a writable directory");
+        }
         for (index, run) in runs.iter().enumerate() {
             let (picture, radius, seconds, differences) = best(run, extinction, &reference);
-            row(&run.name, run, radius, seconds, &differences);
+            let [.., to_cloud] = difference::differences(&picture, &second);
+            row(run, radius, seconds, &differences, to_cloud);
             if let Some(directory) = &directory {
                 write(&picture, directory, &format!("run-{index}-{extinction}"))
                     .expect("a writable directory");

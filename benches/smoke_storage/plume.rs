@@ -52,7 +52,7 @@ pub(crate) fn flow() -> Flow {
 
 /// From where the plume is seen.
 pub(crate) fn camera() -> Camera {
-    Camera::toward(DVec3::new(2.2, 1.4, 3.4), DVec3::new(0.0, 0.85, 0.0))
+    Camera::toward(DVec3::new(2.6, 1.6, 4.2), DVec3::new(0.0, 1.0, 0.0))
 }
 
 /// White light from above and the left.

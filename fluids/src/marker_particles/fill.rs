@@ -3,8 +3,8 @@
 //! # What it computes
 //! Points of a Kronecker sequence \[Niederreiter92\] in the box around the surface, of which those are kept that the surface winds
 //! around at least once. The sequence is `(j a + s) mod 1` in each coordinate, with `a` the first three powers of the root of
-//! `x^4 = x + 1`, inverted, so that every stretch of it is about as even as a lattice but shows no rows; the shift `s`
-//! \[Cranley76\] comes from a seed, so that one release does not have its points where another has them.
+//! `x^4 = x + 1`, inverted, so that every stretch of it is about as even as a lattice; the shift `s` \[Cranley76\] comes from a seed, so
+//! that one release does not have its points where another has them.
 //!
 //! # What it promises
 //! * Each point is inside, exactly: winding numbers are.
@@ -13,7 +13,8 @@
 //!   normal number.
 //!
 //! # What it does not promise
-//! Points in proportion to winding numbers where the surface overlaps itself: what counts is whether there is smoke.
+//! * Points in proportion to winding numbers where the surface overlaps itself: what counts is whether there is smoke.
+//! * Points without order: a flow that stretches them makes rows of the lattice that they nearly are.
 //!
 //! # Complexity
 //! Box over inside times the number of points, each with a ray through the surface.

@@ -1,7 +1,9 @@
 //! Smoke along the rays of a tile, by slices of depth.
 //!
-//! Slices are the same for the whole image: planes at right angles to the line of sight of its middle, half a radius apart if that is
-//! not too many of them. What a particle adds to a slice is exact, and the sum of all slices is the column through it.
+//! Slices are the same for the whole image: planes at right angles to the line of sight of its middle. They are half a radius apart, or
+//! as far as smoke of density 1 has the optical depth between samples of the light, whichever is less; if that is too many of them, as
+//! many as there may be. What a particle adds to a slice is exact, and the sum of all slices is the column through it; within a slice
+//! the smoke counts as even.
 
 use super::super::camera::View;
 use super::super::raster::Window;
@@ -21,12 +23,13 @@ pub(super) struct Slices {
 }
 
 impl Slices {
-    pub(super) fn new(discs: &[Disc], radius: f64) -> Self {
+    /// Slices no thicker than half a radius and a limit, which may be infinite.
+    pub(super) fn new(discs: &[Disc], radius: f64, limit: f64) -> Self {
         let near = discs.iter().fold(f64::INFINITY, |near, disc| near.min(disc.center.z - radius)).max(0.0);
         let far = discs.iter().fold(near, |far, disc| far.max(disc.center.z + radius));
         let whole = far - near;
         // The cast saturates.
-        let count = ((whole / (0.5 * radius)).ceil() as usize).clamp(1, MOST_SLICES);
+        let count = ((whole / limit.min(0.5 * radius)).ceil() as usize).clamp(1, MOST_SLICES);
         Self { near, thickness: whole / count as f64, count, radius }
     }
 

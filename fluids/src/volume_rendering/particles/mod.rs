@@ -27,7 +27,7 @@
 //! ```text
 //! kernel    column of smoke along a line through a ball, whole and up to a place
 //! discs     which pixels a ball may cover
-//! columns   columns of all balls along the rays of a tile, sorted into slices of depth of half a radius
+//! columns   columns of all balls along the rays of a tile, sorted into slices of depth
 //! deposit   volume of smoke in each voxel of the shadow texture
 //! picture   the stages in turn; transmittance and scattering are those of the surface, a slice being a stretch of smoke
 //! ```

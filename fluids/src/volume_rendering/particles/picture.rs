@@ -104,7 +104,7 @@ pub fn render_particles(
     drop(positions);
     let projection_end = start.elapsed().as_secs_f64();
 
-    let slices = Slices::new(&discs, radius);
+    let slices = Slices::new(&discs, radius, parameters.optical_step / extinction);
     let thickness = kernel::thickness(radius, scene.radius_rel);
     let sampling = Sampling::new(parameters);
     let easel = Easel { view, discs, slices, thickness, shadow, extinction, sampling };
