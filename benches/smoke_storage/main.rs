@@ -4,13 +4,14 @@
 //! ```text
 //! cargo bench -p welter-benches --bench smoke_storage [-- TRIANGLES] [--particles=N] [--pictures=DIRECTORY]
 //! ```
-//! TRIANGLES is about how many the surface ends with (default 25000); N is how many particles the dense cloud has (default 64 times
-//! the particles of as many bytes, doubled). Pictures are written, as portable graymaps of the composite, if a directory is given.
+//! TRIANGLES is about how many the surface ends with (default 25000). N is how many particles a dense cloud has, as a second opinion
+//! beside the reference; by default the cloud of 64 times the bytes is it. Pictures are written, as portable graymaps of the composite,
+//! if a directory is given.
 //!
 //! Bytes are those of the least that a frame has to store: positions as three numbers of 8 bytes, an age of 8 bytes for each vertex or
 //! particle, and three vertex numbers of 4 bytes for each triangle. Particles fill the balls of the dense reference, so they do not
 //! suffer from the coarse ones of the surface. Their radius is the best of several for each number of them, by the composite: what a
-//! user would find by trial. The reference is a surface with edges of a third of the length; the dense cloud is a second opinion.
+//! user would find by trial. The reference is a surface with edges of a third of the length.
 
 #![allow(clippy::print_stdout)] // a report is what a benchmark is for
 
@@ -163,12 +164,11 @@ fn main() {
     let coarse = surface("surface", edge);
     let fine = surface("reference: edges of a third", edge / 3.0);
     let equal = coarse.bytes / MarkerState::BYTES_PER_PARTICLE;
-    let dense = option("--particles=").and_then(|n| n.parse().ok()).unwrap_or(2 * 64 * equal);
-    let cloud = particles("dense cloud", dense);
     let mut runs = vec![coarse];
-    for factor in [1, 4, 16, 64] {
-        runs.push(particles(&format!("{factor} x the bytes"), factor * equal));
-    }
+    runs.extend([1, 4, 16, 64].map(|factor| particles(&format!("{factor} x the bytes"), factor * equal)));
+    let dense = option("--particles=").and_then(|n| n.parse().ok());
+    runs.extend(dense.map(|count| particles("dense cloud", count)));
+    let cloud = &runs[runs.len() - 1];
     println!(
         "{FRAMES} frames of {STEP}, {} x {} pixels",
         plume::parameters().width,
@@ -186,17 +186,13 @@ fn main() {
             "{:42} {:>8} {:>8} {:>8} {:>7} {:>6}   alpha          scatter        composite      to the cloud",
             "", "MB", "all MB", "carry s", "draw s", "radius"
         );
-        let (second, radius, cloud_seconds, of_cloud) = best(&cloud, extinction, &reference);
+        let (second, ..) = best(cloud, extinction, &reference);
         let [.., to_cloud] = differences(&reference, &second);
         row(&fine, 0.0, seconds, &[Difference::default(); 3], to_cloud);
-        row(&cloud, radius, cloud_seconds, &of_cloud, Difference::default());
-        if let Some(directory) = &directory {
-            write(&second, directory, &format!("cloud-{extinction}")).expect("a writable directory");
-        }
         for (index, run) in runs.iter().enumerate() {
-            let (picture, radius, seconds, differences) = best(run, extinction, &reference);
-            let [.., to_cloud] = difference::differences(&picture, &second);
-            row(run, radius, seconds, &differences, to_cloud);
+            let (picture, radius, seconds, to_reference) = best(run, extinction, &reference);
+            let [.., to_cloud] = differences(&picture, &second);
+            row(run, radius, seconds, &to_reference, to_cloud);
             if let Some(directory) = &directory {
                 write(&picture, directory, &format!("run-{index}-{extinction}"))
                     .expect("a writable directory");

@@ -1,10 +1,10 @@
 //! Points that fill a closed surface evenly: [`fill`].
 //!
 //! # What it computes
-//! Points of a Kronecker sequence \[Niederreiter92\] in the box around the surface, of which those are kept that the surface winds
-//! around at least once. The sequence is `(j a + s) mod 1` in each coordinate, with `a` the first three powers of the root of
-//! `x^4 = x + 1`, inverted, so that every stretch of it is about as even as a lattice; the shift `s` \[Cranley76\] comes from a seed, so
-//! that one release does not have its points where another has them.
+//! Points of the sequence of \[Halton60\] in the box around the surface, of which those are kept that the surface winds around at least
+//! once: the digits of the numbers 0, 1, 2, ... in bases 2, 3 and 5, read backward behind the point. Each coordinate is shifted, modulo
+//! the side of the box \[Cranley76\], by an amount that comes from a seed, so that one release does not have its points where another
+//! has them.
 //!
 //! # What it promises
 //! * Each point is inside, exactly: winding numbers are.
@@ -14,7 +14,7 @@
 //!
 //! # What it does not promise
 //! * Points in proportion to winding numbers where the surface overlaps itself: what counts is whether there is smoke.
-//! * Points without order: a flow that stretches them makes rows of the lattice that they nearly are.
+//! * Points without order: a flow that stretches them makes what order they have visible.
 //!
 //! # Complexity
 //! Box over inside times the number of points, each with a ray through the surface.
@@ -25,9 +25,6 @@ use welter_meshing::spatial::{Box3, Winding, WindingNumbers};
 use welter_meshing::surface::ClosedOrientedMesh;
 
 use super::Unfilled;
-
-/// The inverse powers of the root of `x^4 = x + 1`, 1.2207440846, in units of 2^-64.
-const STRIDE: [u64; 3] = [0xd1b5_4a32_d192_ed04, 0xabc9_8388_fb8f_ac03, 0x8cb9_2ba7_2f3d_8dd7];
 
 /// How many points are tried for each that is wanted before a surface counts as too thin for its box.
 const MOST_TRIES: u64 = 1 << 12;
@@ -79,23 +76,34 @@ pub fn fill(
     Ok(points)
 }
 
-/// Where a sequence begins, in units of 2^-64, by the mixer of \[Steele14\].
-fn shift(seed: u64) -> [u64; 3] {
+/// How far each coordinate of a sequence is shifted, a multiple of 2^-53 in [0, 1), by the mixer of \[Steele14\].
+fn shift(seed: u64) -> [f64; 3] {
     [1, 2, 3].map(|axis: u64| {
         let z = seed.wrapping_mul(4).wrapping_add(axis).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     })
 }
 
-/// An element of the sequence: multiples of 2^-53 in [0, 1).
-fn element(index: u64, shift: [u64; 3]) -> DVec3 {
-    let part = |axis: usize| {
-        let sum = index.wrapping_mul(STRIDE[axis]).wrapping_add(shift[axis]);
-        (sum >> 11) as f64 / (1_u64 << 53) as f64
+/// An element of the sequence, shifted, in [0, 1).
+fn element(index: u64, shift: [f64; 3]) -> DVec3 {
+    let part = |axis: usize, base: u64| {
+        let sum = radical_inverse(index, base) + shift[axis];
+        if sum < 1.0 { sum } else { sum - 1.0 }
     };
-    DVec3::new(part(0), part(1), part(2))
+    DVec3::new(part(0, 2), part(1, 3), part(2, 5))
+}
+
+/// The digits of a number in a base, read backward behind the point.
+fn radical_inverse(mut number: u64, base: u64) -> f64 {
+    let (mut reversed, mut power) = (0.0, 1.0);
+    while number > 0 {
+        reversed = reversed * base as f64 + (number % base) as f64;
+        power *= base as f64;
+        number /= base;
+    }
+    reversed / power
 }
 
 /// A part of the way across a box along each axis; no difference, so nothing overflows.
@@ -121,6 +129,12 @@ mod tests {
         // Random points would be off by 22 in the mean, and by some 60 in the worst of 64 cells.
         let worst = cells.iter().map(|n| (n - 500).abs()).max();
         assert!(worst <= Some(15), "{cells:?}");
+    }
+
+    #[test]
+    fn digits_are_read_backward() {
+        assert_eq!([0, 1, 2, 3, 6].map(|n| radical_inverse(n, 2)), [0.0, 0.5, 0.25, 0.75, 0.375]);
+        assert_eq!([1, 2, 3, 5].map(|n| radical_inverse(n, 3)), [1.0 / 3.0, 2.0 / 3.0, 1.0 / 9.0, 7.0 / 9.0]);
     }
 
     #[test]
