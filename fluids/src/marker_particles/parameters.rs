@@ -45,7 +45,7 @@ impl MarkerParameters {
     /// let one = MarkerParameters::within(std::slice::from_ref(&emission), 1000, 0.0)?;
     /// let two = MarkerParameters::within(std::slice::from_ref(&emission), 1000, 0.7)?;
     /// assert_eq!(two.particle_volume, 2.0 * one.particle_volume);
-    /// # Ok::<(), welter_fluids::marker_particles::MarkerError>(())
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
