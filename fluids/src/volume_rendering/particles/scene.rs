@@ -15,7 +15,7 @@ pub struct ParticleScene<'a> {
     pub particle_volume: f64,
     /// Radius of a particle in units of the cube root of its volume, from 1/4 to 64. At 2, 4/3 pi 2^3 = 33 balls overlap in the mean
     /// at each point inside. What comes nearest to the smoke depends on how the flow has spread the particles: less radius is more
-    /// grain, more radius a wider border. The benchmark `smoke_storage` finds 1.4 to 2 the best.
+    /// grain, more radius a wider border. The benchmark `smoke_storage` finds 1.4 to 2.8 the best.
     pub radius_rel: f64,
     /// From where it is seen.
     pub camera: Camera,
