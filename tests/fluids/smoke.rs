@@ -3,6 +3,7 @@
 mod ages;
 mod budget;
 mod conservation;
+mod fog_layers;
 mod laws;
 mod releases;
 

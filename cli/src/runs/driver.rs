@@ -5,7 +5,8 @@ use super::folder::sweep;
 use super::record::{self, Record, Status};
 use super::state::Writer;
 use super::stats::{self, Stats};
-use super::{Plan, RunFolder, Simulation, StepFailure, StepProblem, failed_step, frames, report};
+use super::{PictureProblem, Plan, RunFolder, Simulation, StepFailure, StepProblem};
+use super::{failed_step, frames, report};
 use crate::codes::Code;
 use crate::console::Seconds;
 use crate::failure::Failure;
@@ -97,7 +98,8 @@ impl<'a, S: Simulation> Driver<'a, S> {
         if from.is_none() {
             driver.save();
             let line = driver.simulation.initial();
-            driver.tell(line)?;
+            // The first frame is always made: there is nothing before it to go on from.
+            driver.tell(line, &Monitor::none())?;
         }
         Ok(driver)
     }
@@ -118,17 +120,33 @@ impl<'a, S: Simulation> Driver<'a, S> {
         }
     }
 
-    /// Writes the line and the frame of the state that was reached.
-    fn tell(&mut self, mut line: Map<String, Value>) -> Result<(), Box<Failure>> {
+    /// Writes the line and the frame of the state that was reached; false if it was stopped before any of it was written.
+    fn tell(&mut self, mut line: Map<String, Value>, monitor: &Monitor<'_>) -> Result<bool, Box<Failure>> {
         line.insert("step".into(), json!(self.step));
         line.insert("time".into(), json!(self.time));
         let number = self.plan.frame_of(self.step);
         if let Some(number) = number {
+            match self.simulation.pictures(number, monitor) {
+                Ok(mut pictures) => {
+                    let names = frames::write_pictures(self.folder.path(), &pictures, number)?;
+                    if !pictures.told.is_empty() {
+                        pictures.told.insert("files".into(), json!(names));
+                        line.insert("pictures".into(), Value::Object(pictures.told));
+                    }
+                    if !pictures.seconds.is_empty() {
+                        let seconds = line.entry("seconds").or_insert_with(|| json!({}));
+                        seconds["rendering"] = Value::Object(pictures.seconds);
+                    }
+                }
+                Err(PictureProblem::Cancelled) => return Ok(false),
+                Err(PictureProblem::Failed(failure)) => return Err(failure),
+            }
             let frame = self.simulation.frame();
             frames::write(self.folder.path(), &frame, number, self.plan, self.run, self.seconds)?;
             line.insert("frame".into(), json!(number));
         }
-        self.stats.push(line)
+        self.stats.push(line)?;
+        Ok(true)
     }
 
     /// Steps to the end, or until asked to stop.
@@ -150,9 +168,13 @@ impl<'a, S: Simulation> Driver<'a, S> {
                     resume_unwind(panic);
                 }
             };
-            self.step += 1;
-            self.time = self.simulation.time();
-            self.tell(line)?;
+            let before = (self.step, self.time);
+            (self.step, self.time) = (self.step + 1, self.simulation.time());
+            if !self.tell(line, &monitor)? {
+                // The step is done again when the run goes on: the state that is kept is the one before it.
+                (self.step, self.time) = before;
+                return Err(self.interrupted());
+            }
             self.save();
             if self.step.is_multiple_of(self.plan.output.checkpoint_every) || self.step == last {
                 self.write_checkpoint()?;

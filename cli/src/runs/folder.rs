@@ -183,7 +183,7 @@ impl Drop for RunFolder {
 
 /// Removes the unfinished files of a process that was killed; under the lock there can be no others.
 pub(super) fn sweep(path: &Path) {
-    for folder in ["", "surface", "paraview", "preview", "checkpoint", "failure"] {
+    for folder in ["", "surface", "paraview", "preview", "volume", "checkpoint", "failure"] {
         for entry in fs::read_dir(path.join(folder)).into_iter().flatten().flatten() {
             if is_unfinished(&entry.file_name().to_string_lossy()) {
                 let _ = fs::remove_file(entry.path());

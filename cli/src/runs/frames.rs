@@ -1,8 +1,8 @@
-//! The frames of a run: surfaces as PLY, for ParaView with their numbers at vertices, and pictures.
+//! The frames of a run: surfaces as PLY, for ParaView with their numbers at vertices, pictures of them, and those that a solver makes.
 //!
 //! Promises: frame 0 is the initial state; each file is written whole or not at all; the list for ParaView has the true time of each frame.
 
-use super::{Frame, Plan};
+use super::{Frame, Pictures, Plan};
 use crate::codes::Code;
 use crate::console::Seconds;
 use crate::failure::Failure;
@@ -21,6 +21,19 @@ use welter_meshing::io::{
 const FILES: [(&str, &str, &str); 3] =
     [("surface", "frame_", ".ply"), ("paraview", "surface_", ".vtp"), ("preview", "frame_", ".png")];
 
+/// The folder of pictures that a solver makes by itself.
+const VOLUME: &str = "volume";
+
+/// What such pictures show, and what their files end with: `volume/composite_0000.png`.
+const VOLUME_PICTURES: [(&str, &str); 6] = [
+    ("alpha", ".png"),
+    ("scatter", ".png"),
+    ("age", ".png"),
+    ("backdrop", ".png"),
+    ("composite", ".png"),
+    ("planes", ".exr"),
+];
+
 /// The list for ParaView.
 const LIST: &str = "paraview/surface.pvd";
 
@@ -35,12 +48,22 @@ pub(super) fn prepare(folder: &Path, plan: &Plan) -> Result<(), Box<Failure>> {
         let path = folder.join(name);
         fs::create_dir_all(&path).map_err(|error| cannot_write(&path, &error))?;
     }
+    if plan.output.volume {
+        let path = folder.join(VOLUME);
+        fs::create_dir_all(&path).map_err(|error| cannot_write(&path, &error))?;
+    }
     Ok(())
+}
+
+/// The name of a picture that a solver makes, in the folder of the run.
+pub(super) fn volume_path(what: &str, number: u64) -> Option<String> {
+    let (what, after) = VOLUME_PICTURES.iter().find(|(known, _)| *known == what)?;
+    Some(format!("{VOLUME}/{what}_{number:04}{after}"))
 }
 
 /// Removes the frames from a number on: those of an earlier run, or of steps that will be done again.
 pub(super) fn remove_from(folder: &Path, number: u64) {
-    for (name, before, after) in FILES {
+    let remove = |name: &str, before: &str, after: &str| {
         for entry in fs::read_dir(folder.join(name)).into_iter().flatten().flatten() {
             let file = entry.file_name();
             let digits = file.to_str().and_then(|f| f.strip_prefix(before)?.strip_suffix(after));
@@ -48,7 +71,9 @@ pub(super) fn remove_from(folder: &Path, number: u64) {
                 let _ = fs::remove_file(entry.path());
             }
         }
-    }
+    };
+    FILES.iter().for_each(|(name, before, after)| remove(name, before, after));
+    VOLUME_PICTURES.iter().for_each(|(what, after)| remove(VOLUME, &format!("{what}_"), after));
     if number == 0 {
         let _ = fs::remove_file(folder.join(LIST));
     }
@@ -76,6 +101,22 @@ pub(super) fn write(
         draw(&folder.join(path(2, number)), frame, size, plan.output.camera, run, seconds)?;
     }
     Ok(())
+}
+
+/// Writes the pictures that a solver has made of a frame; gives their names.
+pub(super) fn write_pictures(
+    folder: &Path,
+    pictures: &Pictures,
+    number: u64,
+) -> Result<Vec<String>, Box<Failure>> {
+    let write = |(what, bytes): &(&'static str, Vec<u8>)| {
+        let name = volume_path(what, number).ok_or_else(|| {
+            Failure::new(Code::OwnBug, format!("a picture of {what} has no place in a run"))
+        })?;
+        write_whole(&folder.join(&name), |file| file.write_all(bytes))?;
+        Ok(name)
+    };
+    pictures.files.iter().map(write).collect()
 }
 
 /// Writes the list of all frames up to now.

@@ -8,7 +8,8 @@
 //!
 //! Map: [`settings`] reads scenes and [`resolved`] writes them; [`folder`] is found or made under its [`lock`]; [`driver`] is the loop;
 //! [`frames`], [`stats`], [`checkpoint`] and [`record`] are what it writes, [`report`] is made of that in the end, and of a [`past`] run again; [`container`] is the file
-//! format of checkpoints and of failed steps ([`failed_step`]), [`state`] that of the numbers within.
+//! format of checkpoints and of failed steps ([`failed_step`]), [`state`] that of the numbers within; [`words`] is for
+//! people.
 
 pub(crate) mod checkpoint;
 mod container;
@@ -26,12 +27,16 @@ pub(crate) mod state;
 mod stats;
 #[cfg(test)]
 mod tests;
+mod words;
 
 pub(crate) use driver::drive;
 pub(crate) use failed_step::StepFailure;
 pub(crate) use folder::{RunFolder, Start};
 pub(crate) use past::PastRun;
+pub(crate) use words::{Words, resume_line};
 
+use crate::failure::Failure;
+use crate::numbers::{grouped, number};
 use crate::render::Camera;
 use resolved::Resolved;
 use serde_json::{Map, Value};
@@ -52,6 +57,11 @@ pub(crate) trait Simulation {
 
     fn frame(&self) -> Frame;
 
+    /// Pictures that the solver makes of a frame by itself, beside that of its surface. None if it makes none.
+    fn pictures(&self, _number: u64, _monitor: &Monitor<'_>) -> Result<Pictures, PictureProblem> {
+        Ok(Pictures::default())
+    }
+
     /// Everything that later steps depend on, in bits.
     fn save(&self, state: &mut Writer);
 
@@ -70,6 +80,25 @@ pub(crate) enum StepProblem {
     Failed(Box<StepFailure>),
 }
 
+/// Pictures of a frame, and what is to be told of them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Pictures {
+    /// What each shows, one of those that [`frames`] knows, and the bytes of its file.
+    pub(crate) files: Vec<(&'static str, Vec<u8>)>,
+    /// The same in every run.
+    pub(crate) told: Map<String, Value>,
+    /// Times of the clock.
+    pub(crate) seconds: Map<String, Value>,
+}
+
+/// Why there are no pictures.
+#[derive(Debug)]
+pub(crate) enum PictureProblem {
+    /// The monitor asked to stop.
+    Cancelled,
+    Failed(Box<Failure>),
+}
+
 /// What a state looks like.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
@@ -79,6 +108,15 @@ pub(crate) struct Frame {
     /// Text of the picture.
     pub(crate) title: String,
     pub(crate) caption: Vec<String>,
+}
+
+impl Frame {
+    /// A surface at a time.
+    pub(crate) fn of(mesh: TriMesh, arrays: Vec<(&'static str, Vec<f64>)>, title: &str, time: f64) -> Self {
+        let triangles = grouped(mesh.triangles().len() as u64);
+        let caption = vec![format!("time {}", number(time)), format!("{triangles} triangles")];
+        Self { mesh, arrays, title: title.to_owned(), caption }
+    }
 }
 
 /// What is to be done with a simulation.
@@ -106,6 +144,8 @@ pub(crate) struct OutputPlan {
     /// Width and height of a picture of each frame.
     pub(crate) pictures: Option<[u32; 2]>,
     pub(crate) camera: Option<Camera>,
+    /// Whether the solver makes pictures by itself.
+    pub(crate) volume: bool,
 }
 
 impl Plan {

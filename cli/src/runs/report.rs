@@ -1,5 +1,6 @@
 //! The report of a run: `report.json` for scripts, `report.html` to open in a browser.
 
+use super::frames::volume_path;
 use super::record::Status;
 use crate::failure::{Failure, shell_word};
 use crate::html::Page;
@@ -86,5 +87,18 @@ fn first_and_last(folder: &Path, lines: &[&Value]) -> Vec<(Vec<u8>, String)> {
         let png = fs::read(folder.join(format!("preview/frame_{number:04}.png"))).ok()?;
         Some((png, format!("frame {number}, time {time}")))
     };
-    chosen.iter().filter_map(picture).collect()
+    chosen.iter().filter_map(picture).chain(composites(folder, lines)).collect()
+}
+
+/// The same of the pictures that a solver has made; not every frame may have them.
+fn composites(folder: &Path, lines: &[&Value]) -> Vec<(Vec<u8>, String)> {
+    let composite = |line: &&Value| {
+        let (number, time) = (line["frame"].as_u64()?, line["time"].as_f64()?);
+        let png = fs::read(folder.join(volume_path("composite", number)?)).ok()?;
+        Some((png, format!("the volume of frame {number}, time {time}")))
+    };
+    let with_pictures = || lines.iter().filter(|line| line["pictures"].is_object());
+    let first = with_pictures().find_map(composite);
+    let last = with_pictures().rev().find_map(composite).filter(|last| Some(last) != first.as_ref());
+    first.into_iter().chain(last).collect()
 }

@@ -331,6 +331,35 @@ impl<'t> Settings<'t> {
         Err(self.missing(key).help(format!("{key} = \"...\", one of {}", known.join(", "))))
     }
 
+    /// Some of the choices, each at most once; `default` are places in `choices`.
+    pub(crate) fn choices<T: Copy>(
+        &mut self,
+        key: &'static str,
+        default: &[usize],
+        choices: &[(&str, T)],
+    ) -> Result<Vec<T>, Box<Failure>> {
+        let places: Vec<(&str, usize)> =
+            choices.iter().enumerate().map(|(k, (name, _))| (*name, k)).collect();
+        let read = |entry: &Entry<'t>| {
+            let names = places.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+            let list = entry.list().map_err(|_| entry.bad(&format!("an array of some of {names}")))?;
+            let mut chosen: Vec<usize> = Vec::new();
+            for one in &list {
+                let place = one.choice(&places)?;
+                if chosen.contains(&place) {
+                    return Err(one.bad("each of them once"));
+                }
+                chosen.push(place);
+            }
+            Ok(chosen)
+        };
+        let keep = |chosen: Vec<usize>| {
+            Value::List(chosen.into_iter().map(|k| Value::Text(choices[k].0.to_owned())).collect())
+        };
+        let chosen = self.value(key, Some(default.to_vec()), read, keep)?;
+        Ok(chosen.into_iter().map(|k| choices[k].1).collect())
+    }
+
     /// A table, without keys if it is not there.
     pub(crate) fn table<T>(
         &mut self,

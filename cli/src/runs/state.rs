@@ -3,6 +3,7 @@
 //! Promises: numbers keep their bits; little-endian on every machine. No bytes panic or make a reader take memory beyond their number.
 
 use glam::DVec3;
+use welter_meshing::surface::{TriMesh, TriangleSoup};
 
 /// Appends numbers.
 #[derive(Debug, Default)]
@@ -37,6 +38,11 @@ impl Writer {
         for corner in triangles.flatten() {
             self.0.extend_from_slice(&corner.to_le_bytes());
         }
+    }
+
+    pub(crate) fn mesh(&mut self, mesh: &TriMesh) {
+        self.points(mesh.positions());
+        self.triangles(mesh.triangles().iter().map(|corners| corners.map(|v| v.0)));
     }
 }
 
@@ -82,6 +88,12 @@ impl<'b> Reader<'b> {
         let bytes = self.bytes(12 * count)?;
         let corner = |bytes: &[u8]| u32::from_le_bytes(bytes.try_into().expect("4 bytes"));
         Ok(bytes.chunks_exact(12).map(|t| [corner(&t[..4]), corner(&t[4..8]), corner(&t[8..])]).collect())
+    }
+
+    pub(crate) fn mesh(&mut self) -> Result<TriMesh, NoState> {
+        let (positions, triangles) = (self.points()?, self.triangles()?);
+        let soup = TriangleSoup { positions, triangles, ..TriangleSoup::default() };
+        TriMesh::new(soup).map_err(|error| NoState(error.to_string()))
     }
 
     /// Nothing is left.

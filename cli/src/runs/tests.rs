@@ -32,6 +32,8 @@ enum Happening {
     Cancelled,
     Failure,
     Panic,
+    /// While the picture of the state after so many steps is made.
+    PictureCancelled,
 }
 
 impl Wander {
@@ -81,7 +83,7 @@ impl Simulation for Wander {
                 })));
             }
             Some((_, Happening::Panic)) => panic!("it was to panic"),
-            None => {}
+            Some((_, Happening::PictureCancelled)) | None => {}
         }
         monitor.check().map_err(|_| StepProblem::Cancelled)?;
         for corner in &mut self.corners {
@@ -110,6 +112,19 @@ impl Simulation for Wander {
             title: "wander".into(),
             caption: vec![format!("time {}", self.time)],
         }
+    }
+
+    fn pictures(&self, number: u64, _monitor: &Monitor<'_>) -> Result<Pictures, PictureProblem> {
+        let done = (self.time / self.step).round() as u64;
+        if let Some((at, Happening::PictureCancelled)) = self.happens
+            && at == done
+        {
+            return Err(PictureProblem::Cancelled);
+        }
+        let told = json!({ "random": self.random, "number": number });
+        let told = told.as_object().expect("as it should be").clone();
+        let files = vec![("composite", self.time.to_le_bytes().to_vec()), ("planes", vec![7; 9])];
+        Ok(Pictures { files, told, seconds: Map::new() })
     }
 
     fn save(&self, state: &mut Writer) {
@@ -144,7 +159,13 @@ fn plan(step: f64) -> Plan {
         scene: Resolved(vec![("step".to_owned(), Setting::Number(step))]),
         steps: 11,
         last: 11,
-        output: OutputPlan { every: 3, checkpoint_every: 4, pictures: Some([40, 30]), camera: None },
+        output: OutputPlan {
+            every: 3,
+            checkpoint_every: 4,
+            pictures: Some([40, 30]),
+            camera: None,
+            volume: true,
+        },
     }
 }
 
@@ -221,6 +242,8 @@ fn a_run_has_its_frames_lines_and_checkpoints() {
             format!("surface/frame_{k:04}.ply"),
             format!("paraview/surface_{k:04}.vtp"),
             format!("preview/frame_{k:04}.png"),
+            format!("volume/composite_{k:04}.png"),
+            format!("volume/planes_{k:04}.exr"),
         ];
         expected.extend(frames);
     }
@@ -266,6 +289,23 @@ fn a_run_that_was_stopped_anywhere_gives_the_same_bytes() {
         // The checkpoint of the interruption may stand in the place of an older one.
         let extra = folder.join(format!("checkpoint/step_{at:08}.bin"));
         if at > 8 {
+            fs::remove_file(extra).expect("as it should be");
+            fs::copy(whole.join("checkpoint/step_00000008.bin"), folder.join("checkpoint/step_00000008.bin"))
+                .expect("as it should be");
+        }
+        same(&whole, &folder);
+    }
+    // Stopped while a picture was made: the step before it is made again.
+    for at in [3, 6, 9, 11] {
+        let folder = bench.path().join(format!("picture_{at}"));
+        let happens = Some((at, Happening::PictureCancelled));
+        let failure = go(&folder, Start::Resume, &plan(0.1), happens).unwrap_err();
+        assert_eq!(failure.code, Code::Interrupted);
+        assert!(failure.places[0].contains(&format!("step {} of", at - 1)), "{failure:?}");
+        assert!(!folder.join(format!("volume/composite_{:04}.png", at.div_ceil(3))).exists());
+        go(&folder, Start::Resume, &plan(0.1), None).expect("as it should be");
+        let extra = folder.join(format!("checkpoint/step_{:08}.bin", at - 1));
+        if at > 9 {
             fs::remove_file(extra).expect("as it should be");
             fs::copy(whole.join("checkpoint/step_00000008.bin"), folder.join("checkpoint/step_00000008.bin"))
                 .expect("as it should be");
@@ -371,7 +411,11 @@ fn folders_of_something_else_and_of_other_runs_are_refused() {
     // Replaced, with fewer frames: none of the old ones is left.
     let short = Plan { steps: 2, last: 2, ..plan(0.3) };
     assert_eq!(code(Start::Anew(true), &short), Ok(json!("finished")));
-    assert_eq!(fs::read_dir(folder.join("surface")).expect("as it should be").count(), 2);
+    for name in ["surface", "paraview", "preview"] {
+        let list = usize::from(name == "paraview");
+        assert_eq!(fs::read_dir(folder.join(name)).expect("as it should be").count(), 2 + list);
+    }
+    assert_eq!(fs::read_dir(folder.join("volume")).expect("as it should be").count(), 4);
 
     let other = bench.path().join("other");
     fs::create_dir(&other).expect("as it should be");

@@ -130,6 +130,12 @@ impl<T: Keyed> Keyframes<T> {
         Self::new(vec![(0.0, value)], Interpolation::default())
     }
 
+    /// Times and values, in order of time; at least one.
+    #[must_use]
+    pub fn keys(&self) -> &[(f64, T)] {
+        &self.keys
+    }
+
     /// The value at a time.
     #[must_use]
     pub fn at(&self, time: f64) -> T {

@@ -2,6 +2,7 @@
 //!
 //! # What it holds
 //! * [`Emission`]: surfaces that are released over time, as data; [`Schedule`]: at which times.
+//! * [`FogLayer`]: closes sheets to layers, for the renderer.
 //! * [`SmokeSimulation`]: releases and carries them; [`SmokeParameters`] says how, [`SmokeStep`] what a step did, [`SmokeState`] where
 //!   a run stands.
 //!
@@ -14,6 +15,7 @@
 mod carrier;
 mod emission;
 mod error;
+mod fog_layer;
 mod parameters;
 mod report;
 mod schedule;
@@ -22,6 +24,7 @@ mod state;
 
 pub use emission::{Emission, EmissionError, EmittedShape, Joining};
 pub use error::{SmokeError, SmokeParameterError};
+pub use fog_layer::{ClosedSmoke, FogLayer, FogLayerError};
 pub use parameters::{OverBudget, SmokeParameters};
 pub use report::{Refusal, Released, SmokeStep};
 pub use schedule::{Release, Schedule};

@@ -1,5 +1,6 @@
 //! The flow of a scene: from the tables `[[flows]]` and `[[solids]]` to a sum of primitives.
 
+use super::bounds::Bounds;
 use super::solids::Solid;
 use crate::failure::Failure;
 use crate::runs::settings::{ANY, FINITE, Settings};
@@ -31,7 +32,7 @@ pub(super) enum Part {
 }
 
 impl SceneFlow {
-    pub(super) fn new(parts: Vec<Part>, solids: Vec<Solid>) -> Result<Self, ProceduralError> {
+    pub(super) fn new(parts: Vec<Part>, solids: &[Solid]) -> Result<Self, ProceduralError> {
         let (mut potentials, mut sources) = (Vec::new(), Vec::new());
         for part in parts {
             match part {
@@ -41,7 +42,7 @@ impl SceneFlow {
         }
         let mut flow = AnyPotential::new(WeightedSum::new(potentials));
         for solid in solids {
-            flow = AnyPotential::new(Bounded::new(flow, solid.shape, &solid.boundary)?);
+            flow = AnyPotential::new(Bounded::new(flow, solid.shape.clone(), &solid.boundary)?);
         }
         let whole = Weighted { part: AnyVelocity::new(flow), amplitude: Amplitude::Constant(1.0) };
         sources.insert(0, whole);
@@ -67,34 +68,45 @@ const KINDS: [(&str, Kind); 5] = [
 ];
 
 impl Part {
-    /// `seed` is for what the scene gives no seed.
-    pub(super) fn read(table: &mut Settings<'_>, seed: u64) -> Result<Self, Box<Failure>> {
+    /// A flow and the box of what it turns around or spreads from, if that ends somewhere; `seed` is for what the scene gives no seed.
+    pub(super) fn read(table: &mut Settings<'_>, seed: u64) -> Result<(Self, Option<Bounds>), Box<Failure>> {
         let kind = table.required_choice("kind", &KINDS)?;
         let amplitude = read_amplitude(table)?;
         let path = read_path(table)?;
+        let mut bounds = None;
         let part = match kind {
-            Kind::Ring => AnyPotential::new(read_ring(table)?),
-            Kind::Filament => AnyPotential::new(read_filament(table)?),
+            Kind::Ring => {
+                let (ring, around) = read_ring(table)?;
+                bounds = Some(around.along(path.as_ref()));
+                AnyPotential::new(ring)
+            }
+            Kind::Filament => {
+                let (filament, around) = read_filament(table)?;
+                bounds = around.map(|around| around.along(path.as_ref()));
+                AnyPotential::new(filament)
+            }
             Kind::Wind => AnyPotential::new(read_wind(table)?),
             Kind::CurlNoise => AnyPotential::new(read_curl_noise(table, seed)?),
             Kind::Source => {
-                let source = AnyVelocity::new(read_source(table, seed)?);
+                let (source, around) = read_source(table, seed)?;
+                let bounds = around.along(path.as_ref());
+                let source = AnyVelocity::new(source);
                 let part = match path {
                     Some(path) => AnyVelocity::new(Moving { part: source, path }),
                     None => source,
                 };
-                return Ok(Self::Source(Weighted { part, amplitude }));
+                return Ok((Self::Source(Weighted { part, amplitude }), Some(bounds)));
             }
         };
         let part = match path {
             Some(path) => AnyPotential::new(Moving { part, path }),
             None => part,
         };
-        Ok(Self::Potential(Weighted { part, amplitude }))
+        Ok((Self::Potential(Weighted { part, amplitude }), bounds))
     }
 }
 
-fn read_ring(table: &mut Settings<'_>) -> Result<VortexRing, Box<Failure>> {
+fn read_ring(table: &mut Settings<'_>) -> Result<(VortexRing, Bounds), Box<Failure>> {
     let default = VortexRingParameters::default();
     let parameters = VortexRingParameters {
         center: table.vector("center", default.center)?,
@@ -103,10 +115,11 @@ fn read_ring(table: &mut Settings<'_>) -> Result<VortexRing, Box<Failure>> {
         core: table.number("core", default.core, ANY)?,
         circulation: table.number("circulation", default.circulation, ANY)?,
     };
-    VortexRing::new(&parameters).map_err(|error| fault(table, &error))
+    let ring = VortexRing::new(&parameters).map_err(|error| fault(table, &error))?;
+    Ok((ring, Bounds::around(parameters.center, parameters.radius)))
 }
 
-fn read_filament(table: &mut Settings<'_>) -> Result<VortexFilament, Box<Failure>> {
+fn read_filament(table: &mut Settings<'_>) -> Result<(VortexFilament, Option<Bounds>), Box<Failure>> {
     let wanted = "an array of points, such as [[0, 0, 0], [1, 0, 0], [1, 1, 0]]";
     let vertices = table.rows("vertices", wanted, false)?.into_iter().map(DVec3::from_array).collect();
     let parameters = VortexFilamentParameters {
@@ -115,7 +128,8 @@ fn read_filament(table: &mut Settings<'_>) -> Result<VortexFilament, Box<Failure
         core: table.number("core", None, ANY)?,
         circulation: table.number("circulation", 1.0, ANY)?,
     };
-    VortexFilament::new(&parameters).map_err(|error| fault(table, &error))
+    let filament = VortexFilament::new(&parameters).map_err(|error| fault(table, &error))?;
+    Ok((filament, Bounds::of(parameters.vertices)))
 }
 
 fn read_wind(table: &mut Settings<'_>) -> Result<Wind, Box<Failure>> {
@@ -143,7 +157,7 @@ fn read_curl_noise(table: &mut Settings<'_>, seed: u64) -> Result<CurlNoise, Box
     CurlNoise::new(&parameters).map_err(|error| fault(table, &error.into()))
 }
 
-fn read_source(table: &mut Settings<'_>, seed: u64) -> Result<DivergentSource, Box<Failure>> {
+fn read_source(table: &mut Settings<'_>, seed: u64) -> Result<(DivergentSource, Bounds), Box<Failure>> {
     let default = DivergentSourceParameters::default();
     let parameters = DivergentSourceParameters {
         center: table.vector("center", default.center)?,
@@ -167,7 +181,8 @@ fn read_source(table: &mut Settings<'_>, seed: u64) -> Result<DivergentSource, B
             })
         })?,
     };
-    DivergentSource::new(&parameters).map_err(|error| fault(table, &error))
+    let source = DivergentSource::new(&parameters).map_err(|error| fault(table, &error))?;
+    Ok((source, Bounds::around(parameters.center, parameters.radius)))
 }
 
 const INTERPOLATIONS: [(&str, Interpolation); 2] =

@@ -1,10 +1,13 @@
 //! `welter sim`: smoke that is released over time and carried by a flow.
 
+mod bounds;
 mod flows;
 mod frames;
+mod rendering;
 mod report;
 mod scene;
 mod simulation;
+mod solid_surfaces;
 mod solids;
 mod summary;
 
@@ -13,17 +16,15 @@ use crate::commands::track::{Replayed, replayed};
 use crate::console::Seconds;
 use crate::failure::{Failure, shell_word, shown};
 use crate::machine;
-use crate::numbers::{self, grouped};
 use crate::run::{Outcome, Run};
 use crate::runs::failed_step::FailedStep;
-use crate::runs::{Plan, RunFolder, Start, drive};
+use crate::runs::{Plan, RunFolder, Start, Words, drive, resume_line};
 use crate::scene::Scene;
 use frames::FrameRange;
 pub(crate) use report::report;
 use scene::SimScene;
 use serde_json::{Map, Value, json};
 use simulation::Smoke;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// The name of the solver, in run folders.
@@ -60,8 +61,21 @@ Kinds of [[flows]] and their keys:
 [improvement], [topology], [integration] (collisions): each has enabled; `--dry-run` tells every key
 [output]: every, checkpoint_every (steps), pictures = true, size = [800, 600]
 
+Pictures of the smoke as a volume, lit and shadowed, of every frame:
+  [render]
+  extinction = 12.0            # one over the length after which 1/e of the light is left
+  size = [960, 540]            # and: first_frame, last_frame, every_frame, albedo, background, interior, shadow_resolution, ...
+  layer_thickness = 0.2        # of open sheets, which are drawn as layers; along layer_direction, or against the normals
+  [render.camera]              # the same in all frames: eye and target; or azimuth, elevation, fill around box = [[...], [...]],
+  azimuth = 30.0               #   without which all emissions, flows and solids are in the picture; up, field_of_view
+  [render.light]               # direction (the way it travels), radiance, ambient
+  [render.age_blur]            # spread_rel, most_rel: old smoke is soft
+  [render.planes]              # alpha, scatter, age, backdrop, composite: each [], [\"png\"], [\"exr\"] or both
+  composite = [\"png\", \"exr\"]  # PNG: sRGB, clipped to 0..1 (png_colors = \"8-bit\" | \"16-bit\"); EXR: linear (exr_numbers)
+In PNG, alpha, scatter and age are 16 bits of grey: 1 is white, and of ages age_white, the end of the scene by default.
+
 DIR gets surface/frame_0000.ply and so on, paraview/surface.pvd (with ages), stats.jsonl (a line a step), report.html,
-run.json, and checkpoints: Ctrl-C stops, --resume goes on with the same bits as if nothing had happened.
+volume/composite_0000.png, volume/planes_0000.exr, run.json, and checkpoints: Ctrl-C stops, --resume goes on with the same bits as if nothing had happened.
 
 Examples:
   welter sim examples/sim/plume.toml -o plume
@@ -116,7 +130,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     };
     let plan = Plan {
         solver: SOLVER,
-        resume: resume_line(args, output, run),
+        resume: resume_line(SOLVER, &args.scene, output, &args.set, run.seed),
         scene: resolved,
         steps: scene.time.steps,
         last: frames.last_step(scene.output.every),
@@ -146,59 +160,39 @@ pub(crate) fn replay(file: &Path, step: &FailedStep, run: &Run) -> Result<Replay
     replayed(&mut smoke, run)
 }
 
-/// The command line that goes on with a run: what is set belongs to the scene.
-fn resume_line(args: &Args, output: &Path, run: &Run) -> String {
-    let mut line = format!("welter sim {} -o {} --resume", shell_word(&args.scene), shell_word(output));
-    for set in &args.set {
-        let _ = write!(line, " --set {}", shell_word(Path::new(set)));
-    }
-    if run.seed != 0 {
-        let _ = write!(line, " --seed {}", run.seed);
-    }
-    line
-}
-
 /// The result for people.
 fn in_words(scene: &Path, output: &Path, result: &Map<String, Value>) -> String {
-    let result = &Value::Object(result.clone());
-    let count = |path: &str| result.pointer(path).and_then(Value::as_u64).map_or("?".to_owned(), grouped);
-    let number = |path: &str| result.pointer(path).and_then(Value::as_f64).map(numbers::number);
-    let status = result["status"].as_str().unwrap_or("unknown");
-    let mut text = format!(
-        "{}: {status} after {} steps, {} frames, time {}\n",
-        scene.display(),
-        count("/steps"),
-        count("/frames"),
-        number("/time").unwrap_or_default()
+    let mut words = Words::of(scene, result, &["steps", "frames"]);
+    let [last, most] = ["triangles", "most_triangles"].map(|key| words.count(&format!("/elements/{key}")));
+    words.row("triangles", &format!("{last} at the end, {most} at most"));
+    words.row("components", &words.count("/components"));
+    let [made, intersection, budget] = ["made", "refused/intersection", "refused/budget"]
+        .map(|key| words.count(&format!("/releases/{key}")));
+    words.row(
+        "releases",
+        &format!("{made} made, {intersection} refused for intersection, {budget} refused for budget"),
     );
-    let mut row = |name: &str, value: String| {
-        let _ = writeln!(text, "  {name:<18} {value}");
-    };
-    row(
-        "triangles",
-        format!("{} at the end, {} at most", count("/elements/triangles"), count("/elements/most_triangles")),
-    );
-    row("components", count("/components"));
-    let refused = ["intersection", "budget"]
-        .map(|reason| format!("{} refused for {reason}", count(&format!("/releases/refused/{reason}"))));
-    row("releases", format!("{} made, {}", count("/releases/made"), refused.join(", ")));
     if let (Some(released), Some(volume)) =
-        (number("/conserved/volume/released"), number("/conserved/volume/final"))
+        (words.number("/conserved/volume/released"), words.number("/conserved/volume/final"))
     {
-        let relative = number("/conserved/volume/relative_error")
+        let relative = words
+            .number("/conserved/volume/relative_error")
             .map_or(String::new(), |r| format!(" (relative change {r})"));
-        row("volume", format!("{released} released, {volume} at the end{relative}"));
+        words.row("volume", &format!("{released} released, {volume} at the end{relative}"));
     }
-    row(
-        "operations",
-        ["splits", "flips", "collapses", "merges", "separations"]
-            .map(|name| format!("{} {name}", count(&format!("/operations/{name}"))))
-            .join(", "),
-    );
-    if let Some(seconds) = number("/seconds_per_frame/total") {
-        row("seconds a frame", seconds);
+    let operations = ["splits", "flips", "collapses", "merges", "separations"].map(|name| (name, name));
+    words.counts("operations", "/operations", &operations);
+    if let Some(seconds) = words.number("/seconds_per_frame/total") {
+        let parts = [("simulation", "simulated"), ("rendering", "rendered")].map(|(key, word)| {
+            let seconds = words.number(&format!("/seconds_per_frame/{key}"))?;
+            Some(format!("{word} in {seconds}"))
+        });
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        words.row("seconds a frame", &format!("{seconds}: {}", parts.join(", ")));
     }
-    row("report", shell_word(&output.join("report.html")));
-    row("for ParaView", shell_word(&output.join("paraview/surface.pvd")));
-    text
+    if result["rendering"].is_object() {
+        let folder = shell_word(&output.join("volume"));
+        words.row("pictures", &format!("of {} frames in {folder}", words.count("/rendering/frames")));
+    }
+    words.end(output)
 }

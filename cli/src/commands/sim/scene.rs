@@ -1,6 +1,8 @@
 //! A scene of `welter sim`, from the file.
 
+use super::bounds::Bounds;
 use super::flows::{Part, SceneFlow, read_path};
+use super::rendering::{RenderSpec, Studio};
 use super::solids::Solid;
 use crate::codes::Code;
 use crate::commands::track::{
@@ -27,6 +29,10 @@ pub(super) struct SimScene {
     pub(super) time: TimeSpec,
     pub(super) parameters: SmokeParameters,
     pub(super) output: OutputPlan,
+    /// Boxes around flows.
+    bounds: Vec<Bounds>,
+    solids: Vec<Solid>,
+    render: Option<RenderSpec>,
 }
 
 /// An emission whose shape is not built.
@@ -51,8 +57,9 @@ impl SimScene {
             };
             let flows = whole.tables("flows", |table| Part::read(table, seed))?.unwrap_or_default();
             let solids = whole.tables("solids", Solid::read)?.unwrap_or_default();
+            let (flows, bounds): (Vec<Part>, Vec<Option<Bounds>>) = flows.into_iter().unzip();
             let flow =
-                SceneFlow::new(flows, solids).map_err(|error| whole.bad("solids", error.to_string()))?;
+                SceneFlow::new(flows, &solids).map_err(|error| whole.bad("solids", error.to_string()))?;
             let time = whole.table("time", read_time)?;
             let smoke = whole.table("smoke", read_smoke)?;
             let (remeshing, reference_length) = whole.table("improvement", |table| {
@@ -68,6 +75,9 @@ impl SimScene {
             })?;
             // There is no independent check of a surface that may pass through itself.
             let (output, _) = whole.table("output", read_output)?;
+            let given = whole.has("render");
+            let render = whole.table("render", |table| RenderSpec::read(table, given, time.end))?;
+            let output = OutputPlan { volume: render.is_some(), ..output };
             let parameters = SmokeParameters {
                 reference_length,
                 remeshing,
@@ -77,13 +87,24 @@ impl SimScene {
                 ..smoke
             };
             parameters.validate().map_err(|error| whole.bad(key_of(&error), error.to_string()))?;
-            Ok(Self { emissions, flow, time, parameters, output })
+            let bounds = bounds.into_iter().flatten().collect();
+            Ok(Self { emissions, flow, time, parameters, output, bounds, solids, render })
         })
     }
 
     /// Refuses shapes that would take more memory than there is.
     pub(super) fn require_memory(&self, scene: &Path) -> Result<(), Box<Failure>> {
-        self.emissions.iter().try_for_each(|emission| emission.surface.require_memory(scene))
+        self.emissions.iter().try_for_each(|emission| emission.surface.require_memory(scene))?;
+        self.render.iter().try_for_each(|render| render.require_memory(scene))
+    }
+
+    /// What makes the pictures of smoke from these emissions; none if there are to be none.
+    pub(super) fn studio(&self, emissions: &[Emission]) -> Result<Option<Studio>, Box<Failure>> {
+        self.render
+            .iter()
+            .map(|render| Studio::new(render, emissions, &self.bounds, &self.solids))
+            .next()
+            .transpose()
     }
 
     /// The emissions, with their shapes.

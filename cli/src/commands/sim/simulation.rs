@@ -1,17 +1,15 @@
 //! Smoke as a solver over time: [`Smoke`].
 
+use super::rendering::Studio;
 use super::scene::SimScene;
 use super::summary::summary;
 use crate::codes::Code;
-use crate::commands::check::failures_of;
 use crate::commands::track::tracker_failure;
 use crate::failure::Failure;
-use crate::numbers::{grouped, number};
 use crate::progress::Progress;
 use crate::runs::state::{NoState, Reader, Writer};
-use crate::runs::{Frame, Simulation, StepFailure, StepProblem};
+use crate::runs::{Frame, PictureProblem, Pictures, Simulation, StepFailure, StepProblem};
 use serde_json::{Map, Value, json};
-use std::path::Path;
 use welter_fluids::smoke::{
     EmittedShape, Refusal, Released, SmokeError, SmokeSimulation, SmokeState, SmokeStep,
 };
@@ -30,6 +28,8 @@ pub(super) struct Smoke<'s> {
     volumes: Vec<Option<f64>>,
     /// Steps of the scene that are done.
     step: u64,
+    /// None if no pictures of the volume are to be made.
+    studio: Option<Studio>,
 }
 
 impl<'s> Smoke<'s> {
@@ -37,9 +37,10 @@ impl<'s> Smoke<'s> {
     pub(super) fn new(scene: &'s SimScene, title: String, progress: &Progress) -> Result<Self, Box<Failure>> {
         let emissions = scene.emissions(progress)?;
         let volumes = emissions.iter().map(|emission| volume_of(&emission.shape)).collect();
+        let studio = scene.studio(&emissions)?;
         let simulation = SmokeSimulation::new(emissions, scene.parameters, &Monitor::none())
             .map_err(|error| refused(&error))?;
-        Ok(Self { scene, title, simulation, volumes, step: 0 })
+        Ok(Self { scene, title, simulation, volumes, step: 0, studio })
     }
 
     /// At a state that was saved.
@@ -55,9 +56,10 @@ impl<'s> Smoke<'s> {
         let (step, state) = read_state(state).map_err(|error| broken(error.to_string()))?;
         let emissions = scene.emissions(progress)?;
         let volumes = emissions.iter().map(|emission| volume_of(&emission.shape)).collect();
+        let studio = scene.studio(&emissions)?;
         let simulation = SmokeSimulation::resume(emissions, scene.parameters, state, &Monitor::none())
             .map_err(|error| broken(error.to_string()))?;
-        Ok(Self { scene, title, simulation, volumes, step })
+        Ok(Self { scene, title, simulation, volumes, step, studio })
     }
 
     /// Numbers of the surface as it is, and what was released.
@@ -200,13 +202,17 @@ impl Simulation for Smoke<'_> {
     }
 
     fn frame(&self) -> Frame {
-        let mesh = self.simulation.mesh();
-        let caption = vec![
-            format!("time {}", number(self.time())),
-            format!("{} triangles", grouped(mesh.triangles().len() as u64)),
-        ];
         let arrays = vec![("age", self.simulation.ages().to_vec())];
-        Frame { mesh, arrays, title: self.title.clone(), caption }
+        Frame::of(self.simulation.mesh(), arrays, &self.title, self.time())
+    }
+
+    fn pictures(&self, number: u64, monitor: &Monitor<'_>) -> Result<Pictures, PictureProblem> {
+        match &self.studio {
+            Some(studio) if studio.draws(number) => {
+                studio.draw(&self.simulation.mesh(), self.simulation.ages(), self.time(), monitor)
+            }
+            _ => Ok(Pictures::default()),
+        }
     }
 
     fn save(&self, state: &mut Writer) {
@@ -215,8 +221,7 @@ impl Simulation for Smoke<'_> {
         state.number(smoke.time);
         state.number(smoke.reference_length);
         state.numbers(&smoke.ages);
-        state.points(smoke.mesh.positions());
-        state.triangles(smoke.mesh.triangles().iter().map(|corners| corners.map(|v| v.0)));
+        state.mesh(&smoke.mesh);
     }
 
     fn mesh_of(&self, state: &[u8]) -> Option<TriMesh> {
@@ -234,11 +239,8 @@ fn read_state(state: &[u8]) -> Result<(u64, SmokeState), NoState> {
     let step = reader.whole()?;
     let (time, reference_length) = (reader.number()?, reader.number()?);
     let ages = reader.numbers()?;
-    let (positions, triangles) = (reader.points()?, reader.triangles()?);
+    let mesh = reader.mesh()?;
     reader.end()?;
-    let soup = TriangleSoup { positions, triangles, ..TriangleSoup::default() };
-    let mesh = TriMesh::new(soup)
-        .map_err(|error| NoState(failures_of(&error, Path::new("the state")).swap_remove(0).what))?;
     Ok((step, SmokeState { mesh, ages, time, reference_length }))
 }
 

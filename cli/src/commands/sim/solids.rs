@@ -1,6 +1,9 @@
-//! Solids in a flow: from the tables `[[solids]]` to signed distances.
+//! Solids in a flow: from the tables `[[solids]]` to signed distances, and to what is drawn of them.
 
+use super::bounds::Bounds;
 use super::flows::{fault, read_path};
+use super::rendering::require_color;
+use super::solid_surfaces::SolidSurface;
 use crate::failure::Failure;
 use crate::runs::settings::{ANY, Settings};
 use glam::DVec3;
@@ -12,6 +15,11 @@ use welter_meshing::field::{AnyField, Ball, Capsule, Cuboid, Cylinder, FieldErro
 pub(super) struct Solid {
     pub(super) shape: AnyField<'static>,
     pub(super) boundary: BoundaryParameters,
+    pub(super) surface: SolidSurface,
+    /// Whether pictures show it.
+    pub(super) drawn: bool,
+    /// Share of the light that it throws back (red, green, blue).
+    pub(super) albedo: [f64; 3],
 }
 
 #[derive(Clone, Copy)]
@@ -35,14 +43,14 @@ const KINDS: [(&str, Kind); 6] = [
 
 impl Solid {
     pub(super) fn read(table: &mut Settings<'_>) -> Result<Self, Box<Failure>> {
-        let shape = match table.required_choice("kind", &KINDS)? {
+        let (shape, surface) = match table.required_choice("kind", &KINDS)? {
             Kind::Ball => {
                 let ball = Ball {
                     center: table.vector("center", DVec3::ZERO)?,
                     radius: table.number("radius", None, ANY)?,
                 };
                 valid(table, ball.validate())?;
-                AnyField::new(ball)
+                (AnyField::new(ball), SolidSurface::ball(&ball))
             }
             Kind::Box => {
                 let cuboid = Cuboid {
@@ -51,7 +59,7 @@ impl Solid {
                     rounding: table.number("rounding", 0.0, ANY)?,
                 };
                 valid(table, cuboid.validate())?;
-                AnyField::new(cuboid)
+                (AnyField::new(cuboid), SolidSurface::Box(cuboid))
             }
             Kind::Torus => {
                 let torus = Torus {
@@ -61,18 +69,18 @@ impl Solid {
                     tube_radius: table.number("tube_radius", None, ANY)?,
                 };
                 valid(table, torus.validate())?;
-                AnyField::new(torus)
+                (AnyField::new(torus), SolidSurface::torus(&torus))
             }
             Kind::Capsule => {
                 let capsule = Capsule { ends: read_ends(table)?, radius: table.number("radius", None, ANY)? };
                 valid(table, capsule.validate())?;
-                AnyField::new(capsule)
+                (AnyField::new(capsule), SolidSurface::capsule(&capsule))
             }
             Kind::Cylinder => {
                 let cylinder =
                     Cylinder { ends: read_ends(table)?, radius: table.number("radius", None, ANY)? };
                 valid(table, cylinder.validate())?;
-                AnyField::new(cylinder)
+                (AnyField::new(cylinder), SolidSurface::cylinder(&cylinder))
             }
             Kind::HalfSpace => {
                 let half = HalfSpace {
@@ -80,7 +88,7 @@ impl Solid {
                     normal: table.vector("normal", DVec3::Z)?,
                 };
                 valid(table, half.validate())?;
-                AnyField::new(half)
+                (AnyField::new(half), SolidSurface::Plane(half))
             }
         };
         let boundary = BoundaryParameters {
@@ -89,7 +97,17 @@ impl Solid {
             path: read_path(table)?,
         };
         boundary.validate().map_err(|error| fault(table, &error))?;
-        Ok(Self { shape, boundary })
+        let drawn = table.flag("drawn", true)?;
+        let albedo = table.vector("albedo", DVec3::splat(0.5))?.to_array();
+        require_color(table, "albedo", albedo)?;
+        Ok(Self { shape, boundary, surface, drawn, albedo })
+    }
+}
+
+impl Solid {
+    /// A box around all places where it is, if it ends somewhere.
+    pub(super) fn bounds(&self) -> Option<Bounds> {
+        self.surface.bounds().map(|bounds| bounds.along(self.boundary.path.as_ref()))
     }
 }
 

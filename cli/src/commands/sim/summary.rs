@@ -4,8 +4,8 @@ use serde_json::{Map, Value, json};
 
 const OPERATIONS: [&str; 7] =
     ["splits", "flips", "collapses", "merges", "separations", "refused", "refused_for_the_budget"];
-const PHASES: [&str; 7] =
-    ["improvement", "topology", "velocity", "collisions", "compaction", "check", "total"];
+const PHASES: [&str; 6] = ["improvement", "topology", "velocity", "collisions", "compaction", "check"];
+const RENDERING: [&str; 7] = ["layers", "shadow", "projection", "pixels", "composition", "encoding", "total"];
 
 /// The result.
 pub(super) fn summary(lines: &[&Value]) -> Map<String, Value> {
@@ -22,13 +22,27 @@ pub(super) fn summary(lines: &[&Value]) -> Map<String, Value> {
         .collect();
     // Of the steps between frames; the initial frame has none.
     let made = frames.saturating_sub(1);
-    let seconds: Map<String, Value> = PHASES
-        .iter()
-        .map(|key| {
-            let sum: f64 = lines.iter().filter_map(|line| line["seconds"][*key].as_f64()).sum();
-            ((*key).to_owned(), json!((made > 0).then(|| sum / made as f64)))
+    let sum = |path: &str| lines.iter().filter_map(|line| line.pointer(path)?.as_f64()).sum::<f64>();
+    let per_frame = |key: &str| (made > 0).then(|| sum(&format!("/seconds/{key}")) / made as f64);
+    let mut seconds: Map<String, Value> =
+        PHASES.iter().map(|key| ((*key).to_owned(), json!(per_frame(key)))).collect();
+    let drawn = lines.iter().filter(|line| line["pictures"].is_object()).count();
+    let per_picture = |key: &str| sum(&format!("/seconds/rendering/{key}")) / drawn as f64;
+    let rendering = (drawn > 0).then(|| {
+        let stages = RENDERING.iter().map(|key| ((*key).to_owned(), json!(per_picture(key))));
+        json!({
+            "frames": drawn,
+            "seconds_per_picture": stages.collect::<Map<_, _>>(),
+            "crossings": lines.iter().filter_map(|line| line["pictures"]["crossings"].as_u64()).sum::<u64>(),
         })
-        .collect();
+    });
+    // Pictures are shared out to all frames, those without one too, so that the parts add up.
+    let rendered = (drawn > 0 && frames > 0).then(|| sum("/seconds/rendering/total") / frames as f64);
+    let simulated = per_frame("total");
+    seconds.insert("simulation".into(), json!(simulated));
+    seconds.insert("rendering".into(), json!(rendered));
+    let total = simulated.map(|simulated| simulated + rendered.unwrap_or(0.0)).or(rendered);
+    seconds.insert("total".into(), json!(total));
     let releases = || lines.iter().filter_map(|line| line["releases"].as_array()).flatten();
     let refused = |reason: &str| releases().filter(|release| release["refused"]["reason"] == reason).count();
     let released: f64 = lines.iter().filter_map(|line| number(&line, "released_volume")).sum();
@@ -50,6 +64,7 @@ pub(super) fn summary(lines: &[&Value]) -> Map<String, Value> {
         "reference_length": of("reference_length"),
         "operations": operations,
         "seconds_per_frame": seconds,
+        "rendering": rendering,
     });
     let Value::Object(result) = result else { unreachable!("an object was written") };
     result

@@ -18,17 +18,15 @@ pub(crate) use surface::SurfaceSpec;
 
 use crate::codes::Code;
 use crate::console::Seconds;
-use crate::failure::{Failure, shell_word, shown};
+use crate::failure::{Failure, shown};
 use crate::machine;
-use crate::numbers::{self, grouped};
 use crate::run::{Outcome, Run};
-use crate::runs::{Plan, RunFolder, Start, drive};
+use crate::runs::{Plan, RunFolder, Start, Words, drive, resume_line};
 use crate::scene::Scene;
 use exact::ExactError;
 use scene::TrackScene;
 use serde_json::{Map, Value, json};
 use simulation::Track;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// The name of the solver, in run folders.
@@ -122,7 +120,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     };
     let plan = Plan {
         solver: SOLVER,
-        resume: resume_line(args, output, run),
+        resume: resume_line(SOLVER, &args.scene, output, &args.set, run.seed),
         scene: resolved,
         steps: scene.time.steps,
         last: args.steps.unwrap_or(u64::MAX),
@@ -138,76 +136,35 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     Ok(0)
 }
 
-/// The command line that goes on with a run: what is set belongs to the scene.
-fn resume_line(args: &Args, output: &Path, run: &Run) -> String {
-    let mut line = format!("welter track {} -o {} --resume", shell_word(&args.scene), shell_word(output));
-    for set in &args.set {
-        let _ = write!(line, " --set {}", shell_word(Path::new(set)));
-    }
-    if run.seed != 0 {
-        let _ = write!(line, " --seed {}", run.seed);
-    }
-    line
-}
-
 /// The result for people.
 fn in_words(scene: &Path, output: &Path, result: &Map<String, Value>) -> String {
-    let result = &Value::Object(result.clone());
-    let count = |path: &str| result.pointer(path).and_then(Value::as_u64).map_or("?".to_owned(), grouped);
-    let number = |path: &str| result.pointer(path).and_then(Value::as_f64).map(numbers::number);
-    let status = result["status"].as_str().unwrap_or("unknown");
-    let mut text = format!(
-        "{}: {status} after {} steps, time {}\n",
-        scene.display(),
-        count("/steps"),
-        number("/time").unwrap_or_default()
-    );
-    let mut row = |name: &str, value: String| {
-        let _ = writeln!(text, "  {name:<18} {value}");
-    };
-    row(
-        "triangles",
-        format!(
-            "{} at the beginning, {} at the end, {} to {} between",
-            count("/triangles/initial"),
-            count("/triangles/final"),
-            count("/triangles/min"),
-            count("/triangles/max")
-        ),
-    );
-    if let (Some(before), Some(after)) = (number("/volume/initial"), number("/volume/final")) {
-        let relative =
-            number("/volume/relative_error").map_or(String::new(), |r| format!(" (relative change {r})"));
-        row("volume", format!("{before} to {after}{relative}"));
+    let mut words = Words::of(scene, result, &["steps"]);
+    let triangles = ["initial", "final", "min", "max"].map(|key| words.count(&format!("/triangles/{key}")));
+    let [initial, last, min, max] = triangles;
+    words.row("triangles", &format!("{initial} at the beginning, {last} at the end, {min} to {max} between"));
+    if let (Some(before), Some(after)) = (words.number("/volume/initial"), words.number("/volume/final")) {
+        let relative = words
+            .number("/volume/relative_error")
+            .map_or(String::new(), |r| format!(" (relative change {r})"));
+        words.row("volume", &format!("{before} to {after}{relative}"));
     }
-    row("components", count("/components"));
-    row(
-        "operations",
-        ["splits", "flips", "collapses", "merges", "separations"]
-            .map(|name| format!("{} {name}", count(&format!("/operations/{name}"))))
-            .join(", "),
-    );
-    row(
-        "collisions",
-        [("impulses", "impulses"), ("impact_zones", "impact zones"), ("rigid_zones", "rigid zones")]
-            .map(|(key, name)| format!("{} {name}", count(&format!("/collisions/{key}"))))
-            .join(", "),
-    );
-    row(
+    words.row("components", &words.count("/components"));
+    words.counts("operations", "/operations", &OPERATIONS.map(|name| (name, name)));
+    let zones = [("impulses", "impulses"), ("impact_zones", "impact zones"), ("rigid_zones", "rigid zones")];
+    words.counts("collisions", "/collisions", &zones);
+    let [most, checked] = ["max", "checked_steps"].map(|key| words.count(&format!("/intersections/{key}")));
+    words.row(
         "intersections",
-        format!(
-            "{} pairs of triangles at most, in {} steps checked on their own",
-            count("/intersections/max"),
-            count("/intersections/checked_steps")
-        ),
+        &format!("{most} pairs of triangles at most, in {checked} steps checked on their own"),
     );
-    if let Some(seconds) = number("/seconds_per_step/total") {
-        row("seconds a step", seconds);
+    if let Some(seconds) = words.number("/seconds_per_step/total") {
+        words.row("seconds a step", &seconds);
     }
     if result["error"].is_object() {
-        row("error", ExactError::in_words(&result["error"]));
+        words.row("error", &ExactError::in_words(&result["error"]));
     }
-    row("report", shell_word(&output.join("report.html")));
-    row("for ParaView", shell_word(&output.join("paraview/surface.pvd")));
-    text
+    words.end(output)
 }
+
+/// What is told of changes of the surface.
+const OPERATIONS: [&str; 5] = ["splits", "flips", "collapses", "merges", "separations"];

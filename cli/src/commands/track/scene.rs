@@ -239,7 +239,10 @@ pub(crate) fn read_output(table: &mut Settings<'_>) -> Result<(OutputPlan, u64),
         elevation: elevation.unwrap_or(20.0),
         distance,
     });
-    Ok((OutputPlan { every, checkpoint_every, pictures: pictures.then_some(size), camera }, check_every))
+    Ok((
+        OutputPlan { every, checkpoint_every, pictures: pictures.then_some(size), camera, volume: false },
+        check_every,
+    ))
 }
 
 fn out_of_range(table: &Settings<'_>, error: &ParameterError) -> Box<Failure> {

@@ -4,17 +4,14 @@ use super::scene::TrackScene;
 use super::step_failure;
 use super::summary::summary;
 use crate::codes::Code;
-use crate::commands::check::failures_of;
 use crate::failure::Failure;
-use crate::numbers::{grouped, number};
 use crate::runs::state::{NoState, Reader, Writer};
 use crate::runs::{Frame, Simulation, StepProblem};
 use serde_json::{Map, Value, json};
-use std::path::Path;
 use welter_meshing::Monitor;
 use welter_meshing::spatial::{Bvh, Sharing};
 use welter_meshing::surface::measure::{area, signed_volume};
-use welter_meshing::surface::{Topology, TriMesh, TriangleSoup};
+use welter_meshing::surface::{Topology, TriMesh};
 use welter_tracking::improvement::ImprovementReport;
 use welter_tracking::integration::{IntegrationError, IntegrationReport};
 use welter_tracking::surface::MovingSurface;
@@ -187,22 +184,15 @@ impl Simulation for Track<'_> {
     }
 
     fn frame(&self) -> Frame {
-        let mesh = self.tracker.surface().to_mesh();
-        let caption = vec![
-            format!("time {}", number(self.time())),
-            format!("{} triangles", grouped(mesh.triangles().len() as u64)),
-        ];
-        Frame { mesh, arrays: Vec::new(), title: self.title.clone(), caption }
+        Frame::of(self.tracker.surface().to_mesh(), Vec::new(), &self.title, self.time())
     }
 
     fn save(&self, state: &mut Writer) {
-        let mesh = self.tracker.surface().to_mesh();
         state.whole(self.step);
         state.whole(self.tracker.steps());
         state.number(self.tracker.time());
         state.number(self.tracker.reference_length());
-        state.points(mesh.positions());
-        state.triangles(mesh.triangles().iter().map(|corners| corners.map(|v| v.0)));
+        state.mesh(&self.tracker.surface().to_mesh());
     }
 
     fn mesh_of(&self, state: &[u8]) -> Option<TriMesh> {
@@ -229,11 +219,8 @@ impl Saved {
         let mut reader = Reader(state);
         let (step, steps) = (reader.whole()?, reader.whole()?);
         let (time, length) = (reader.number()?, reader.number()?);
-        let (positions, triangles) = (reader.points()?, reader.triangles()?);
+        let mesh = reader.mesh()?;
         reader.end()?;
-        let soup = TriangleSoup { positions, triangles, ..TriangleSoup::default() };
-        let mesh = TriMesh::new(soup)
-            .map_err(|error| NoState(failures_of(&error, Path::new("the state")).swap_remove(0).what))?;
         Ok(Self { step, steps, time, length, mesh })
     }
 }
