@@ -453,6 +453,28 @@ mod tests {
     }
 
     #[test]
+    fn some_of_the_choices_are_kept_in_their_order() {
+        let read = |text: &str| {
+            read_scene(&Scene::of("a.toml", text), |scene| {
+                scene.choices("formats", &[1], &[("png", 'p'), ("exr", 'e')])
+            })
+        };
+        for (text, chosen, told) in [
+            ("", vec!['e'], "formats = [\"exr\"]\n"),
+            ("formats = []", vec![], "formats = []\n"),
+            ("formats = [\"exr\", \"png\"]", vec!['e', 'p'], "formats = [\"exr\", \"png\"]\n"),
+        ] {
+            let (values, resolved) = read(text).unwrap();
+            assert_eq!((values, resolved.to_toml().as_str()), (chosen, told));
+        }
+        for text in
+            ["formats = \"png\"", "formats = [\"png\", \"png\"]", "formats = [\"pgn\"]", "formats = [1]"]
+        {
+            assert_eq!(read(text).unwrap_err().code, Code::BadValue, "{text}");
+        }
+    }
+
+    #[test]
     fn faults_are_told_at_their_line_with_what_may_be_meant() {
         for (text, code, line, help) in [
             ("[time]\nstep = 1\nsteeps = 2", Code::UnknownKey, 3, "`steps`"),

@@ -26,6 +26,11 @@ impl Bounds {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
+    /// Larger by a length on every side.
+    pub(super) fn grown(self, by: f64) -> Self {
+        Self { low: self.low - DVec3::splat(by), high: self.high + DVec3::splat(by) }
+    }
+
     /// What it covers while it is displaced along a path.
     pub(super) fn along(self, path: Option<&Path>) -> Self {
         let keys = path.map_or(&[][..], |path| path.keys());

@@ -50,7 +50,13 @@ impl Studio {
         }
         let released = emissions.iter().filter_map(|emission| {
             let points = emission.shape.mesh().positions().iter().copied();
-            Bounds::of(points).map(|bounds| bounds.along(emission.path.as_ref()))
+            let bounds = Bounds::of(points)?.along(emission.path.as_ref());
+            // A layer is as deep on one side, which may be any once the sheet has turned over.
+            let depth = match (&emission.shape, &spec.layer) {
+                (EmittedShape::Open(_), Some(layer)) => layer.thickness,
+                _ => 0.0,
+            };
+            Some(bounds.grown(depth))
         });
         let known = released.chain(bounds.iter().copied()).chain(solids.iter().filter_map(Solid::bounds));
         let known = known.reduce(Bounds::joined).unwrap_or(Bounds::around(glam::DVec3::ZERO, 1.0));
@@ -174,5 +180,49 @@ impl Drawn {
         let mut soup = self.mesh.to_soup();
         soup.positions.iter_mut().for_each(|position| *position += displacement);
         TriMesh::new(soup).map_err(|error| error.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::commands::sim::bounds::Bounds;
+    use crate::commands::sim::scene::SimScene;
+    use crate::progress::{Progress, ProgressMode};
+    use crate::scene::Scene;
+    use glam::DVec3;
+
+    const SCENE: &str = "[[emissions]]\nshape = \"sheet\"\n[[emissions]]\nshape = \"sphere\"\nedge_length = 0.5\n\
+        path = [[0, 0, 0, 0], [1, 0, 4, 0]]\n[[flows]]\nkind = \"ring\"\nradius = 2\ncenter = [0, 0, 1]\n\
+        path = [[0, 0, 0, 0], [5, 0, 0, 7]]\n[[flows]]\nkind = \"wind\"\nvelocity = [0, 0, 9]\n[[solids]]\nkind = \"ball\"\n\
+        radius = 0.5\nramp_width = 1\ncenter = [-3, 0, 0]\npath = [[0, 0, 0, 0], [1, 1, 0, 0]]\n[[solids]]\nkind = \"half-space\"\n\
+        ramp_width = 1\npoint = [0, 0, -3]\ndrawn = false\n[time]\nstep = 0.5\nsteps = 4\n[render]\nextinction = 1\n\
+        layer_thickness = 2.5\nsize = [200, 100]\n[render.camera]\nfill = 0.75\n";
+
+    #[test]
+    fn all_that_is_known_beforehand_is_in_the_picture_and_solids_go_their_way() {
+        let (scene, _) = SimScene::read(&Scene::of("a.toml", SCENE), 0).unwrap();
+        let emissions = scene.emissions(&Progress::new(ProgressMode::None, true)).unwrap();
+        let studio = scene.studio(&emissions).unwrap().unwrap();
+        // The ring reaches up to 8 + 2, the layer down to -2.5, the ball to -3.5, the emitter as far as its polyhedron.
+        let puff = Bounds::of(emissions[1].shape.mesh().positions().iter().copied()).unwrap();
+        let high = DVec3::new(3.0, 4.0 + puff.high.y, 10.0);
+        let known = Bounds { low: DVec3::new(-3.5, -3.0, -2.5), high };
+        assert!(studio.camera.target.distance(known.middle()) < 1e-9, "{}", studio.camera.target);
+        let forward = (studio.camera.target - studio.camera.eye).normalize();
+        let right = forward.cross(DVec3::Z).normalize();
+        let top = right.cross(forward);
+        let slope = (0.5 * studio.camera.vertical_field_of_view).tan();
+        let most = known.corners().map(|corner| {
+            let p = corner - studio.camera.eye;
+            let [x, y] = [p.dot(right), p.dot(top)].map(|c| (c / p.dot(forward)).abs() / slope);
+            (0.5 * x).max(y)
+        });
+        assert!((most.into_iter().fold(0.0, f64::max) - 0.75).abs() < 1e-9, "{most:?}");
+        assert_eq!(studio.solids.len(), 1, "the plane is not drawn");
+        for (time, x) in [(0.0, -3.0), (1.0, -2.0), (3.0, -2.0)] {
+            let mesh = studio.solids[0].at(time).unwrap();
+            let bounds = Bounds::of(mesh.positions().iter().copied()).unwrap();
+            assert!((bounds.middle() - DVec3::new(x, 0.0, 0.0)).length() < 1e-12, "{bounds:?}");
+        }
     }
 }
