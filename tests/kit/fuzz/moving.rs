@@ -12,8 +12,11 @@ use welter_tracking::tracker::{SurfaceTracker, TrackerError, TrackerParameters};
 use crate::entropy::Entropy;
 use crate::exact::self_intersections;
 
-/// Pieces of a surface, with corners on a lattice: closed ones, and sheets that are open.
-const PIECES: [(&[[i32; 3]], &[[u32; 3]]); 4] = [
+/// Corners on a lattice, and triangles of them.
+type Piece = (&'static [[i32; 3]], &'static [[u32; 3]]);
+
+/// Pieces of a surface: closed ones, and sheets that are open.
+const PIECES: [Piece; 4] = [
     (&[[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2]], &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]),
     (
         &[[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]],
