@@ -41,13 +41,14 @@ impl EmittedShape {
     }
 }
 
-/// What becomes of a release that meets smoke that is there already.
+/// What becomes of a release and smoke that it meets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Joining {
     /// It is a component of its own; where components overlap there is smoke of both.
     #[default]
     Separate,
-    /// It is joined to what it overlaps: the surface encloses the union. Closed shapes only.
+    /// It becomes one with what it comes to touch, where the tracker merges. A release that would overlap smoke that is
+    /// there is not made, and told. Closed shapes only.
     Merged,
 }
 
