@@ -99,7 +99,8 @@ pub struct Resolved {
 /// let ends = surface.positions().iter().map(|&p| DVec3::new(p.x, p.y, -2.0 * p.z.max(0.0))).collect();
 /// let (parameters, nobody) = (IntegrationParameters::default(), Monitor::none());
 /// let resolved = resolve(&surface, &mut broad_phase, ends, 0.25, &parameters, &nobody)?;
-/// assert!(resolved.report.collisions > Some(0));
+/// // None: so many pairs collide on that way that it was shortened at once.
+/// assert_ne!(resolved.report.collisions, Some(0));
 /// accept(&mut surface, &mut broad_phase, &resolved.ends, &nobody)?;
 /// assert!(welter_meshing::spatial::self_intersections(&surface.to_mesh(), &nobody)?.is_empty());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
