@@ -29,8 +29,8 @@ pub struct IntegrationParameters {
     /// At most 64. Default: 3: what does not end in an eighth of a step is jammed rather than fast.
     pub most_halvings: u32,
     /// More collisions than so many times the number of vertices, or what would take as long to find out, are not resolved; the step is
-    /// shortened at once, to some lengths of an edge. At least 1. Default: 16, twice what two layers have that pass
-    /// through each other by an edge length: each vertex meets one or two triangles, each edge a few.
+    /// shortened at once, to some lengths of an edge. At least 1. Default: 32, twice what stacked sheets have that
+    /// slide by an edge length (14): each vertex meets one or two triangles, each edge a few.
     pub most_collisions_per_vertex: u32,
 }
 
@@ -45,7 +45,7 @@ impl Default for IntegrationParameters {
             most_zone_collisions: 8192,
             rigid_rounds: 12,
             most_halvings: 3,
-            most_collisions_per_vertex: 16,
+            most_collisions_per_vertex: 32,
         }
     }
 }
