@@ -5,7 +5,7 @@ use welter_meshing::Monitor;
 use welter_meshing::surface::{TriMesh, TriangleSoup};
 use welter_tracking::flows::{Flow, FlowError, Prediction};
 use welter_tracking::improvement::{ImprovementParameters, SplitScheme, TopologyParameters};
-use welter_tracking::integration::IntegrationParameters;
+use welter_tracking::integration::{IntegrationError, IntegrationParameters};
 use welter_tracking::surface::MovingSurface;
 use welter_tracking::tracker::{SurfaceTracker, TrackerError, TrackerParameters};
 
@@ -79,9 +79,15 @@ pub fn moving_surfaces(bytes: &[u8]) {
         integration: IntegrationParameters { sweeps: u32::from(flags >> 6), ..Default::default() },
         reference_length: (entropy.byte() & 1 != 0).then_some(unit),
     };
-    let Ok(mut tracker) = SurfaceTracker::new(surface, parameters) else {
-        assert!(crosses_itself(&mesh) || unit != 1.0, "an embedded surface is refused");
-        return;
+    let mut tracker = match SurfaceTracker::new(surface, parameters) {
+        Ok(tracker) => tracker,
+        Err(TrackerError::Integration(IntegrationError::Intersection { .. })) => {
+            assert!(crosses_itself(&mesh), "an embedded surface is refused");
+            return;
+        }
+        // A unit that is no length of a mesh.
+        Err(TrackerError::Parameter(_)) => return,
+        Err(error) => panic!("{error}"),
     };
     assert!(!crosses_itself(&mesh), "accepted at the beginning");
     for _ in 0..2 {
