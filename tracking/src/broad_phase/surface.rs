@@ -171,21 +171,10 @@ impl BroadPhase {
     /// Takes in that a surface was compacted, all other changes of which were followed. Linear; the boxes are as they
     /// were.
     pub fn renumber(&mut self, renumbering: &Renumbering) {
-        fn renamed(olds: impl ExactSizeIterator<Item = u32> + Clone) -> (Vec<u32>, usize) {
-            let count = olds.len();
-            let mut new = vec![u32::MAX; olds.clone().max().map_or(0, |most| most as usize + 1)];
-            for (name, old) in (0..).zip(olds) {
-                new[old as usize] = name;
-            }
-            (new, count)
-        }
         let Renumbering { vertices, edges, triangles } = renumbering;
-        let (new, count) = renamed(vertices.iter().map(|v| v.0));
-        self.vertices.rename(&new, count);
-        let (new, count) = renamed(edges.iter().map(|e| e.0));
-        self.edges.rename(&new, count);
-        let (new, count) = renamed(triangles.iter().map(|t| t.0));
-        self.triangles.rename(&new, count);
+        self.vertices.rename(vertices.iter().map(|v| v.0));
+        self.edges.rename(edges.iter().map(|e| e.0));
+        self.triangles.rename(triangles.iter().map(|t| t.0));
     }
 
     /// Takes in new boxes of some triangles at rest, in use or not, and leaves vertices and edges as they were: what

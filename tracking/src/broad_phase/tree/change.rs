@@ -4,7 +4,8 @@
 //! more than three quarters of its leaves, the highest such subtree is built anew, as in a scapegoat tree: it takes
 //! about a third as many changes as the subtree has leaves to unbalance it again, so a change costs O(log^2 n) amortised.
 
-use super::{Key, NONE, Node, Tree, build, half_girth};
+use super::{GRAIN, Key, NONE, Node, Tree, build, half_girth};
+use rayon::prelude::*;
 use welter_meshing::spatial::Box3;
 
 impl Tree {
@@ -26,23 +27,22 @@ impl Tree {
         self.settle(parent);
     }
 
-    /// Gives the elements other names: `new[old]`, for all that are in the tree, of which there are `count`.
-    pub(in crate::broad_phase) fn rename(&mut self, new: &[u32], count: usize) {
-        self.leaf_of.clear();
-        self.leaf_of.resize(count, NONE);
-        if self.root == NONE {
-            return;
-        }
-        let mut stack = vec![self.root];
-        while let Some(at) = stack.pop() {
-            let node = &mut self.nodes[at as usize];
-            if node.is_leaf() {
-                node.children[0] = new[node.children[0] as usize];
-                self.leaf_of[node.children[0] as usize] = at;
-            } else {
-                stack.extend(node.children);
+    /// Gives the elements other names: `old[new]`, for all that are in the tree. Memory is passed in its order: to follow the
+    /// branches would wait for most nodes of a large tree.
+    pub(in crate::broad_phase) fn rename(&mut self, old: impl ExactSizeIterator<Item = u32> + Clone) {
+        let mut new = vec![NONE; self.leaf_of.len()];
+        for (name, before) in (0..).zip(old.clone()) {
+            if let Some(new) = new.get_mut(before as usize) {
+                *new = name;
             }
         }
+        let leaf_of = |before: u32| self.leaf_of.get(before as usize).copied().unwrap_or(NONE);
+        self.leaf_of = old.map(leaf_of).collect();
+        self.nodes.par_iter_mut().with_min_len(GRAIN).for_each(|node| {
+            if node.is_leaf() && node.children[0] != NONE {
+                node.children[0] = new[node.children[0] as usize];
+            }
+        });
     }
 
     /// Takes an element out, if it is in the tree.
@@ -54,6 +54,7 @@ impl Tree {
         self.ordered = false;
         self.leaf_of[element as usize] = NONE;
         self.free.push(leaf);
+        self.nodes[leaf as usize].children[0] = NONE;
         let parent = self.nodes[leaf as usize].parent;
         if parent == NONE {
             self.root = NONE;

@@ -84,6 +84,13 @@ fn no_sequence_of_changes_breaks_the_tree() {
                     boxes.iter().filter(|(_, b)| !super::super::gap::apart(b, &query, 0.25)).map(|(&e, _)| e);
                 assert_eq!(tree.near(&query, 0.25, |_| true), near.collect::<Vec<_>>());
             }
+            if step % 500 == 250 {
+                // As when a surface is numbered without gaps.
+                let old: Vec<u32> = boxes.keys().copied().collect();
+                tree.rename(old.iter().copied());
+                boxes = (0..).zip(boxes.into_values()).collect();
+                check(&tree, &boxes);
+            }
             if step % 500 == 499 {
                 boxes.values_mut().for_each(|b| *b = some_box(&mut state, kinds[0], step));
                 tree.refresh(|e| boxes[&e]);
