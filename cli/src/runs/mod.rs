@@ -6,7 +6,7 @@
 //!
 //! Does not promise: the same bits from another version of the program.
 //!
-//! Map: [`settings`] reads scenes and [`resolved`] writes them; [`folder`] is found or made under its [`lock`]; [`driver`] is the loop;
+//! Map: a [`request`] is what a command is asked for; [`settings`] reads scenes and [`resolved`] writes them; [`folder`] is found or made under its [`lock`]; [`driver`] is the loop;
 //! [`frames`], [`stats`], [`checkpoint`] and [`record`] are what it writes, [`report`] is made of that in the end, and of a [`past`] run again; [`container`] is the file
 //! format of checkpoints and of failed steps ([`failed_step`]), [`state`] that of the numbers within; [`words`] is for
 //! people.
@@ -21,6 +21,7 @@ mod lock;
 mod past;
 mod record;
 mod report;
+mod request;
 pub(crate) mod resolved;
 pub(crate) mod settings;
 pub(crate) mod state;
@@ -33,6 +34,7 @@ pub(crate) use driver::drive;
 pub(crate) use failed_step::StepFailure;
 pub(crate) use folder::{RunFolder, Start};
 pub(crate) use past::PastRun;
+pub(crate) use request::{Request, ToRun};
 pub(crate) use words::{Words, resume_line};
 
 use crate::failure::Failure;

@@ -13,19 +13,17 @@ mod summary;
 
 use crate::codes::Code;
 use crate::commands::track::{Replayed, replayed};
-use crate::console::Seconds;
 use crate::failure::{Failure, shell_word, shown};
-use crate::machine;
 use crate::run::{Outcome, Run};
 use crate::runs::failed_step::FailedStep;
-use crate::runs::{Plan, RunFolder, Start, Words, drive, resume_line};
+use crate::runs::{Request, ToRun, Words};
 use crate::scene::Scene;
 use frames::FrameRange;
 pub(crate) use report::report;
 use scene::SimScene;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 use simulation::Smoke;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The name of the solver, in run folders.
 pub(crate) const SOLVER: &str = "sim";
@@ -82,68 +80,31 @@ Examples:
   welter sim examples/sim/plume.toml -o plume --frames ..10
   welter sim examples/sim/plume.toml -o plume --resume")]
 pub(crate) struct Args {
-    /// Scene to read
-    #[arg(value_name = "SCENE.toml")]
-    scene: PathBuf,
-    /// Folder for the run; made if its parent exists
-    #[arg(short, long, value_name = "DIR", required_unless_present = "dry_run")]
-    output: Option<PathBuf>,
-    /// Put a value in the place of that of the scene, such as time.step=0.02; may be given several times
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    request: Request,
     /// The frames to make, such as 0..20 or ..20: stop after the last; --resume goes on from the first
     #[arg(long, value_name = "A..B")]
     frames: Option<FrameRange>,
-    /// Go on with the run in DIR
-    #[arg(long)]
-    resume: bool,
-    /// Write nothing; tell the scene with every value that holds
-    #[arg(long)]
-    dry_run: bool,
 }
 
 pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
-    let console = &run.console;
-    let mut seconds = Seconds::default();
-    let file = Scene::read(&args.scene)?.set(&args.set)?;
-    let (scene, resolved) = SimScene::read(&file, run.seed)?;
-    scene.require_memory(&args.scene)?;
-    let (false, Some(output)) = (args.dry_run, &args.output) else {
-        console.result(&resolved.to_toml())?;
-        console.object(
-            &json!({ "input": shown(&args.scene), "steps": scene.time.steps, "scene": resolved.to_json() }),
-        )?;
-        return Ok(0);
-    };
-    if args.resume && run.force {
-        return Err(Failure::new(Code::Usage, "--resume goes on with a run, --force replaces it")
-            .help("give one of them"));
-    }
-    let start = if args.resume { Start::Resume } else { Start::Anew(run.force) };
-    let mut folder = RunFolder::open(output, start, SOLVER, &resolved.to_toml(), run)?;
+    let (request, console) = (&args.request, &run.console);
+    let (scene, resolved) = SimScene::read(&request.read()?, run.seed)?;
+    scene.require_memory(&request.scene)?;
+    let (steps, every) = (scene.time.steps, scene.output.every);
+    let to_run = ToRun { solver: SOLVER, scene: resolved, steps, output: scene.output };
+    let Some(mut begun) = request.begin(to_run, run)? else { return Ok(0) };
     let frames = args.frames.unwrap_or_default();
-    frames.require_reached(folder.from.as_ref().map_or(0, |from| from.step), scene.output.every)?;
-    let title = args.scene.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let mut smoke = match &folder.from {
+    frames.require_reached(begun.folder.from.as_ref().map_or(0, |from| from.step), every)?;
+    let title = begun.title();
+    let mut smoke = match &begun.folder.from {
         Some(from) => Smoke::resumed(&scene, title, &from.state, &console.progress)?,
-        None => console.stage(&mut seconds, "building", || Smoke::new(&scene, title, &console.progress))?,
+        None => {
+            let build = || Smoke::new(&scene, title, &console.progress);
+            console.stage(&mut begun.seconds, "building", build)?
+        }
     };
-    let plan = Plan {
-        solver: SOLVER,
-        resume: resume_line(SOLVER, &args.scene, output, &args.set, run.seed),
-        scene: resolved,
-        steps: scene.time.steps,
-        last: frames.last_step(scene.output.every),
-        output: scene.output,
-    };
-    let mut object = drive(&mut smoke, &plan, &mut folder, run, &mut seconds)?;
-    drop(folder);
-    console.result(&in_words(&args.scene, output, &object))?;
-    object.insert("input".into(), json!(shown(&args.scene)));
-    object.insert("output".into(), json!(shown(output)));
-    object.insert("peak_rss_bytes".into(), json!(machine::peak_memory()));
-    console.object(&Value::Object(object))?;
-    Ok(0)
+    begun.finish(&mut smoke, frames.last_step(every), in_words, run)
 }
 
 /// Runs the step after the state of a file.

@@ -17,17 +17,14 @@ pub(crate) use step_failure::tracker_failure;
 pub(crate) use surface::SurfaceSpec;
 
 use crate::codes::Code;
-use crate::console::Seconds;
 use crate::failure::{Failure, shown};
-use crate::machine;
 use crate::run::{Outcome, Run};
-use crate::runs::{Plan, RunFolder, Start, Words, drive, resume_line};
-use crate::scene::Scene;
+use crate::runs::{Request, ToRun, Words};
 use exact::ExactError;
 use scene::TrackScene;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 use simulation::Track;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The name of the solver, in run folders.
 pub(crate) const SOLVER: &str = "track";
@@ -68,72 +65,32 @@ Examples:
   welter track examples/track/enright.toml -o fine --set surface.edge_length=0.01 --set time.step=0.01
   welter track examples/track/enright.toml -o enright --resume")]
 pub(crate) struct Args {
-    /// Scene to read
-    #[arg(value_name = "SCENE.toml")]
-    scene: PathBuf,
-    /// Folder for the run; made if its parent exists
-    #[arg(short, long, value_name = "DIR", required_unless_present = "dry_run")]
-    output: Option<PathBuf>,
-    /// Put a value in the place of that of the scene, such as flow.period=2; may be given several times
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    request: Request,
     /// Stop after this step of the scene; --resume goes on
     #[arg(long, value_name = "N")]
     steps: Option<u64>,
-    /// Go on with the run in DIR
-    #[arg(long)]
-    resume: bool,
-    /// Write nothing; tell the scene with every value that holds
-    #[arg(long)]
-    dry_run: bool,
 }
 
 pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
-    let console = &run.console;
-    let mut seconds = Seconds::default();
-    let file = Scene::read(&args.scene)?.set(&args.set)?;
-    let (scene, resolved) = TrackScene::read(&file, run.seed)?;
-    scene.surface.require_memory(&args.scene)?;
-    let (false, Some(output)) = (args.dry_run, &args.output) else {
-        console.result(&resolved.to_toml())?;
-        console.object(
-            &json!({ "input": shown(&args.scene), "steps": scene.time.steps, "scene": resolved.to_json() }),
-        )?;
-        return Ok(0);
-    };
-    if args.resume && run.force {
-        return Err(Failure::new(Code::Usage, "--resume goes on with a run, --force replaces it")
-            .help("give one of them"));
-    }
-    let start = if args.resume { Start::Resume } else { Start::Anew(run.force) };
-    let mut folder = RunFolder::open(output, start, SOLVER, &resolved.to_toml(), run)?;
-    let title = args.scene.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let mut track = match &folder.from {
+    let (request, console) = (&args.request, &run.console);
+    let (scene, resolved) = TrackScene::read(&request.read()?, run.seed)?;
+    scene.surface.require_memory(&request.scene)?;
+    let to_run = ToRun { solver: SOLVER, scene: resolved, steps: scene.time.steps, output: scene.output };
+    let Some(mut begun) = request.begin(to_run, run)? else { return Ok(0) };
+    let title = begun.title();
+    let mut track = match &begun.folder.from {
         Some(from) => Track::resumed(&scene, title, &from.state).map_err(|error| {
             Failure::new(Code::OwnBug, format!("a whole checkpoint cannot be gone on from: {error}"))
-                .subject(shown(output))
+                .subject(shown(begun.output()))
         })?,
         None => {
-            let mesh = console.stage(&mut seconds, "building", || scene.surface.build(&console.progress))?;
+            let build = || scene.surface.build(&console.progress);
+            let mesh = console.stage(&mut begun.seconds, "building", build)?;
             Track::new(&scene, title, &mesh)?
         }
     };
-    let plan = Plan {
-        solver: SOLVER,
-        resume: resume_line(SOLVER, &args.scene, output, &args.set, run.seed),
-        scene: resolved,
-        steps: scene.time.steps,
-        last: args.steps.unwrap_or(u64::MAX),
-        output: scene.output,
-    };
-    let mut object = drive(&mut track, &plan, &mut folder, run, &mut seconds)?;
-    drop(folder);
-    console.result(&in_words(&args.scene, output, &object))?;
-    object.insert("input".into(), json!(shown(&args.scene)));
-    object.insert("output".into(), json!(shown(output)));
-    object.insert("peak_rss_bytes".into(), json!(machine::peak_memory()));
-    console.object(&Value::Object(object))?;
-    Ok(0)
+    begun.finish(&mut track, args.steps.unwrap_or(u64::MAX), in_words, run)
 }
 
 /// The result for people.
