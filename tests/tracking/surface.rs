@@ -5,3 +5,4 @@ mod attributes;
 mod construction;
 mod named;
 pub(crate) mod random;
+mod union;

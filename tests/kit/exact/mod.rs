@@ -24,5 +24,5 @@ pub use moved::{MovedLine, moved_box_meets, moved_orient};
 pub use orient::{in_sphere, in_sphere_value, orient, orient_value};
 pub use patch::{infinitesimal, ray_bilinear_patch};
 pub use rounding::nearest_f64;
-pub use self_intersection::self_intersections;
+pub use self_intersection::{intersects_itself, self_intersections};
 pub use spacetime::swept_meet;

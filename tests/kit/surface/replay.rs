@@ -23,6 +23,22 @@ impl Replay {
         }
     }
 
+    /// With all elements numbered anew, without gaps: vertices and triangles in their order, edges by their ends.
+    #[must_use]
+    pub fn compacted(&self) -> Self {
+        let new: BTreeMap<VertexId, VertexId> =
+            self.vertices.iter().copied().zip((0..).map(VertexId)).collect();
+        let mut ends: Vec<[VertexId; 2]> = self.edges.values().map(|ends| ends.map(|v| new[&v])).collect();
+        ends.iter_mut().for_each(|ends| ends.sort_unstable());
+        ends.sort_unstable();
+        let triangles = self.triangles.values().map(|corners| corners.map(|v| new[&v]));
+        Self {
+            vertices: new.values().copied().collect(),
+            edges: (0..).map(EdgeId).zip(ends).collect(),
+            triangles: (0..).map(TriId).zip(triangles).collect(),
+        }
+    }
+
     /// Applies the changes of an event.
     ///
     /// # Panics

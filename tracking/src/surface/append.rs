@@ -12,7 +12,7 @@ use super::connectivity::RadialConnectivity;
 use super::{EdgeChange, EventKind, MovingSurface, SurfaceDefects, TriangleChange, VertexChange};
 
 /// The most half-edges of a surface: they are numbered with 32 bits, and one number is for none.
-const MOST_HALF_EDGES: usize = u32::MAX as usize;
+pub(super) const MOST_HALF_EDGES: usize = u32::MAX as usize;
 
 /// Why a mesh is not added.
 #[derive(Clone, Debug, Error, PartialEq)]

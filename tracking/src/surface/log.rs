@@ -51,6 +51,8 @@ pub enum EventKind {
     },
     /// A mesh was added beside the surface.
     Append,
+    /// The surface became that of its union with a shape.
+    Unite,
     /// All elements were numbered anew, without gaps.
     Compact,
 }

@@ -3,7 +3,8 @@
 //! # What it computes
 //! [`MovingSurface`] holds positions, masses, named attributes and connectivity, and carries all of them
 //! through five operations: an edge is split, flipped or collapsed; triangles are replaced by others; the fans of a
-//! vertex part. It keeps a log of them.
+//! vertex part. It keeps a log of them. Two more take in a mesh: beside the surface ([`MovingSurface::append`]), or as the union with it
+//! ([`MovingSurface::unite`]).
 //!
 //! # What it promises
 //! * After every operation the surface is admissible \[Brochu12, section 3.2.1\]: each edge has one triangle, or as
@@ -18,7 +19,7 @@
 //! * The same calls give the same bits.
 //!
 //! # What it does not promise
-//! Anything about geometry: whether triangles intersect, which edges are to be changed, where vertices go. Positions
+//! Anything about geometry, but for the union: whether triangles intersect, which edges are to be changed, where vertices go. Positions
 //! are carried along, on straight lines between the ends of edges.
 //!
 //! # Method
@@ -38,6 +39,7 @@ mod log;
 mod mass;
 mod moving_surface;
 mod operations;
+mod union;
 
 pub use append::AppendError;
 pub use attributes::{Attribute, AttributeError, AttributeSet, AttributeValue, CustomRule, Inherited, Rule};
@@ -48,3 +50,4 @@ pub use log::{EdgeChange, Event, EventKind, EventLog, TriangleChange, VertexChan
 pub use mass::MassRule;
 pub use moving_surface::{MovingSurface, Renumbering, StateDefect, VertexValueError};
 pub use operations::{Outcome, Plan};
+pub use union::{UnionError, UnionObstacle, UnionOutcome, UnionParameters, UnionReport};

@@ -4,7 +4,7 @@ use crate::broad_phase::BroadPhaseError;
 use crate::flows::FlowError;
 use crate::improvement::ParameterError;
 use crate::integration::IntegrationError;
-use crate::surface::{AppendError, VertexValueError};
+use crate::surface::{AppendError, UnionError, VertexValueError};
 use thiserror::Error;
 use welter_meshing::Cancelled;
 
@@ -18,6 +18,9 @@ pub enum TrackerError {
     /// What is to be added is no surface.
     #[error(transparent)]
     Append(#[from] AppendError),
+    /// What is to be united with the surface is not.
+    #[error(transparent)]
+    Union(#[from] UnionError),
     /// The flow predicts nothing.
     #[error(transparent)]
     Flow(#[from] FlowError),

@@ -24,12 +24,12 @@ use crate::broad_phase::BroadPhaseError;
 use crate::flows::Flow;
 use crate::improvement::{ImprovementParameters, ImprovementReport, Stage, TopologyParameters, smoothed};
 use crate::integration::IntegrationReport;
-use crate::surface::{EventLog, MovingSurface};
+use crate::surface::{EventLog, MovingSurface, UnionParameters, UnionReport};
 use glam::DVec3;
 use std::ops::Range;
 use std::time::Instant;
 use welter_meshing::Monitor;
-use welter_meshing::surface::{TriMesh, VertexId};
+use welter_meshing::surface::{ClosedOrientedMesh, TriMesh, VertexId};
 
 /// A surface that moves with a flow and is remeshed, and may pass through itself.
 ///
@@ -122,6 +122,21 @@ impl ImmersedTracker {
         let added = self.surface.append(mesh)?;
         let _ = self.surface.take_log();
         Ok(added)
+    }
+
+    /// Makes the surface that of its union with a shape, as [`MovingSurface::unite`], which refuses one that passes through itself.
+    ///
+    /// # Errors
+    /// [`TrackerError::Union`] with the reason; the surface is as it was then.
+    pub fn unite(
+        &mut self,
+        shape: &ClosedOrientedMesh,
+        parameters: &UnionParameters,
+        monitor: &Monitor<'_>,
+    ) -> Result<UnionReport, TrackerError> {
+        let report = self.surface.unite(shape, parameters, monitor)?;
+        let _ = self.surface.take_log();
+        Ok(report)
     }
 
     /// Makes one step of at most `dt`: remeshing, smoothing, the flow.

@@ -39,12 +39,14 @@ use crate::broad_phase::{BroadPhase, Motion};
 use crate::flows::{Flow, Prediction};
 use crate::improvement::{self, ImprovementReport, ParameterError, Stage};
 use crate::integration::{self, IntegrationParameters, IntegrationReport};
-use crate::surface::{AttributeSet, EventLog, MovingSurface, VertexValueError};
+use crate::surface::{
+    AttributeSet, EventLog, MovingSurface, UnionOutcome, UnionParameters, UnionReport, VertexValueError,
+};
 use glam::DVec3;
 use std::ops::Range;
 use std::time::Instant;
 use welter_meshing::Monitor;
-use welter_meshing::surface::{EdgeId, TriId, TriMesh, VertexId};
+use welter_meshing::surface::{ClosedOrientedMesh, EdgeId, TriId, TriMesh, VertexId};
 
 /// A surface that moves without intersecting itself.
 ///
@@ -186,6 +188,46 @@ impl SurfaceTracker {
         integration::accept(&mut surface, &mut broad_phase, &at_rest, monitor)?;
         (self.surface, self.broad_phase, self.since_built) = (surface, broad_phase, 0);
         Ok(added)
+    }
+
+    /// Makes the surface that of its union with a shape, as [`MovingSurface::unite`]. Time does not go on.
+    ///
+    /// ```
+    /// use welter_meshing::{DVec3, Monitor, shapes::{Sphere, sphere}};
+    /// use welter_tracking::surface::{MovingSurface, UnionOutcome, UnionParameters};
+    /// use welter_tracking::tracker::{SurfaceTracker, TrackerParameters};
+    ///
+    /// let ball = |x: f64| sphere(&Sphere { center: x * DVec3::X, edge_length: 0.5, ..Sphere::default() });
+    /// let surface = MovingSurface::new(ball(0.0)?.as_mesh())?;
+    /// let mut tracker = SurfaceTracker::new(surface, TrackerParameters::default())?;
+    /// let report = tracker.unite(&ball(1.0)?, &UnionParameters::default(), &Monitor::none())?;
+    /// assert_eq!(report.outcome, UnionOutcome::Joined);
+    /// assert_eq!(tracker.surface().connectivity().euler_characteristic(), 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`TrackerError::Union`] with the reason; [`TrackerError::Parameter`] if the tracker has no reference length, since it had no
+    /// edges and was given none. The surface is as it was then.
+    pub fn unite(
+        &mut self,
+        shape: &ClosedOrientedMesh,
+        parameters: &UnionParameters,
+        monitor: &Monitor<'_>,
+    ) -> Result<UnionReport, TrackerError> {
+        require_length(self.length)?;
+        let mut surface = self.surface.clone();
+        let report = surface.unite(shape, parameters, monitor)?;
+        if report.outcome == UnionOutcome::Within {
+            return Ok(report);
+        }
+        let _ = surface.take_log();
+        // It has passed the exact check as a mesh; here it passes the one that the tracker believes in.
+        let mut broad_phase = BroadPhase::new(&surface, Motion::Rest)?;
+        let at_rest = surface.positions().to_vec();
+        integration::accept(&mut surface, &mut broad_phase, &at_rest, monitor)?;
+        (self.surface, self.broad_phase, self.since_built) = (surface, broad_phase, 0);
+        Ok(report)
     }
 
     /// How far time has gone on.
