@@ -6,6 +6,7 @@ mod conservation;
 mod fog_layers;
 mod laws;
 mod releases;
+mod unions;
 
 use glam::DVec3;
 use welter_fluids::procedural::{

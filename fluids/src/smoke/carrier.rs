@@ -1,11 +1,11 @@
 //! What moves the surface, with collisions or without: [`Carrier`].
 
 use welter_meshing::Monitor;
-use welter_meshing::surface::TriMesh;
+use welter_meshing::surface::{ClosedOrientedMesh, TriMesh};
 use welter_tracking::flows::Flow;
 use welter_tracking::improvement::TopologyParameters;
 use welter_tracking::integration::IntegrationError;
-use welter_tracking::surface::MovingSurface;
+use welter_tracking::surface::{MovingSurface, UnionError, UnionParameters, UnionReport};
 use welter_tracking::tracker::{
     ImmersedTracker, StepReport, SurfaceTracker, SurfaceValues, TrackerError, TrackerParameters,
 };
@@ -93,6 +93,35 @@ impl Carrier {
             Ok(_) => Ok(None),
             Err(TrackerError::Integration(IntegrationError::Intersection { pairs, .. })) => {
                 Ok(Some(Refusal::Intersection { pairs: pairs.len() }))
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Unites the surface with a shape, or says why not.
+    pub(super) fn unite(
+        &mut self,
+        shape: &ClosedOrientedMesh,
+        most_triangles: usize,
+        monitor: &Monitor<'_>,
+    ) -> Result<Result<UnionReport, Refusal>, TrackerError> {
+        let present = self.surface().connectivity().triangle_count();
+        let parameters = UnionParameters { most_triangles, ..UnionParameters::default() };
+        let united = match self {
+            Self::Embedded(tracker) => tracker.unite(shape, &parameters, monitor),
+            // Runs without collisions have no emissions that are merged.
+            Self::Immersed(tracker) => tracker.unite(shape, &parameters, monitor),
+        };
+        match united {
+            Ok(report) => Ok(Ok(report)),
+            Err(TrackerError::Union(UnionError::SelfIntersection { pairs })) => {
+                Ok(Err(Refusal::Intersection { pairs: pairs.len() }))
+            }
+            Err(TrackerError::Union(UnionError::Budget { .. })) => Ok(Err(Refusal::Budget { present })),
+            Err(TrackerError::Union(UnionError::Sheet { .. })) => Ok(Err(Refusal::Sheet)),
+            Err(TrackerError::Union(UnionError::InsideOut { .. })) => Ok(Err(Refusal::InsideOut)),
+            Err(TrackerError::Union(UnionError::Degenerate { shifts, obstacle })) => {
+                Ok(Err(Refusal::Degenerate { shifts, obstacle }))
             }
             Err(error) => Err(error),
         }

@@ -47,8 +47,8 @@ pub enum Joining {
     /// It is a component of its own; where components overlap there is smoke of both.
     #[default]
     Separate,
-    /// It becomes one with what it comes to touch, where the tracker merges. A release that would overlap smoke that is
-    /// there is not made, and told. Closed shapes only.
+    /// It becomes one with smoke that it overlaps, their union, and with what it comes to touch later, where the tracker merges.
+    /// Closed shapes only.
     Merged,
 }
 

@@ -5,7 +5,7 @@ use welter_meshing::Cancelled;
 use welter_meshing::surface::{TriId, TriMeshError};
 use welter_tracking::improvement::ParameterError;
 use welter_tracking::integration::IntegrationError;
-use welter_tracking::surface::SurfaceDefects;
+use welter_tracking::surface::{SurfaceDefects, UnionError};
 use welter_tracking::tracker::TrackerError;
 
 use super::EmissionError;
@@ -135,6 +135,7 @@ impl SmokeError {
         match error {
             TrackerError::Cancelled(cancelled) => cancelled.into(),
             TrackerError::Integration(IntegrationError::Cancelled(cancelled)) => cancelled.into(),
+            TrackerError::Union(UnionError::Cancelled(cancelled)) => cancelled.into(),
             error => Self::Tracker { time, error },
         }
     }

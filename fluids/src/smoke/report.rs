@@ -2,6 +2,7 @@
 
 use welter_tracking::improvement::ImprovementReport;
 use welter_tracking::integration::IntegrationReport;
+use welter_tracking::surface::{UnionObstacle, UnionReport};
 use welter_tracking::tracker::{PhaseSeconds, StepReport};
 
 use super::Release;
@@ -17,16 +18,29 @@ pub struct Released {
     pub triangles: usize,
     /// Why it was not released; none if it was.
     pub refusal: Option<Refusal>,
+    /// How it was united with the smoke that was there; none if it was refused, or is a component of its own.
+    pub union: Option<UnionReport>,
 }
 
 /// Why a release did not come about. It does not come later either.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// With collisions: it would intersect smoke that is there, or itself, displaced to where coordinates are too coarse for it.
+    /// With collisions: it would intersect smoke that is there, unless it is to be merged, or itself, displaced to where coordinates are too coarse for it.
     Intersection {
         /// How many pairs of triangles would meet.
         pairs: usize,
+    },
+    /// It is to be merged, and would cross a sheet, which has no inside.
+    Sheet,
+    /// It is to be merged, and meets smoke that is inside out.
+    InsideOut,
+    /// It is to be merged, and meets smoke in no general position, however it is shifted.
+    Degenerate {
+        /// How often it was shifted.
+        shifts: u32,
+        /// What was in the way the last time.
+        obstacle: UnionObstacle,
     },
     /// There would be more triangles than are allowed.
     Budget {

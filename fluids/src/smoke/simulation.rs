@@ -13,6 +13,8 @@
 //! * Vertices follow the flow with an error of order four in the step.
 //! * There are never more triangles than the budget allows, but for those that close parted surfaces, where these may part.
 //! * With collisions, the surface never intersects itself.
+//! * A merged release becomes the union with the smoke that is there: what lies inside of both is inside of one surface, and a release
+//!   that lies inside of smoke adds nothing. Ages along the curves where both crossed are those of the smoke that was there.
 //! * A step that fails returns an error and leaves everything as it was.
 //! * The same bits for any number of threads; and a run that is resumed from a state goes on with the same bits as one that was never
 //!   stopped.
@@ -22,8 +24,9 @@
 //!   their ages, by a quarter of an edge at most in a step.
 //! * Volume: flat triangles change it with an order of two in the edge length, and remeshing adds about as much (`docs/accuracy.md`).
 //! * Without collisions, which is the default, that the surface is free of intersections.
-//! * The union of what overlaps. A merged release is joined where the tracker merges, on contact: one that would cross smoke that is there
-//!   is refused, and one that lies inside of it, off its surface, is a component of its own.
+//! * Triangles of a good shape where a merged release was united with smoke, before the next step remeshes them.
+//! * That a merged release comes about where it is: one that meets smoke in no general position is shifted by small parts of its edges
+//!   ([`UnionParameters`](welter_tracking::surface::UnionParameters)), as the report tells.
 //!
 //! # Complexity
 //! A step is linear in the number of elements, and so is each release.
@@ -38,7 +41,7 @@ use glam::DVec3;
 
 use super::carrier::Carrier;
 use super::{
-    Emission, Joining, OverBudget, Refusal, Release, Released, SmokeError, SmokeParameterError,
+    Emission, EmittedShape, Joining, OverBudget, Refusal, Release, Released, SmokeError, SmokeParameterError,
     SmokeParameters, SmokeState, SmokeStep,
 };
 
@@ -297,14 +300,23 @@ impl SmokeSimulation {
                     .map_err(|error| SmokeError::Emission { emission, error })?;
                 let triangles = shape.mesh().triangles().len();
                 let present = self.surface().connectivity().triangle_count();
-                let refusal = if present + triangles > self.parameters.most_triangles {
-                    Some(Refusal::Budget { present })
-                } else {
-                    self.carrier
+                let most = self.parameters.most_triangles;
+                let released = match &shape {
+                    EmittedShape::Closed(shape) if self.emissions[emission].joining == Joining::Merged => {
+                        self.carrier.unite(shape, most, monitor).map(|united| united.map(Some))
+                    }
+                    _ if present + triangles > most => Ok(Err(Refusal::Budget { present })),
+                    _ => self
+                        .carrier
                         .insert(shape.mesh(), monitor)
-                        .map_err(|error| SmokeError::of_tracker(time, error))?
+                        .map(|refusal| refusal.map_or(Ok(None), Err)),
                 };
-                report.releases.push(Released { emission, release, triangles, refusal });
+                let released = released.map_err(|error| SmokeError::of_tracker(time, error))?;
+                let (union, refusal) = match released {
+                    Ok(union) => (union, None),
+                    Err(refusal) => (None, Some(refusal)),
+                };
+                report.releases.push(Released { emission, release, triangles, refusal, union });
             }
         }
         Ok(())

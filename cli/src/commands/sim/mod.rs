@@ -133,6 +133,16 @@ fn in_words(scene: &Path, output: &Path, result: &Map<String, Value>) -> String 
         "releases",
         &format!("{made} made, {intersection} refused for intersection, {budget} refused for budget"),
     );
+    // Of releases that are merged, where there are any that met smoke.
+    let merged =
+        ["united/joined", "united/within", "refused/sheet", "refused/inside_out", "refused/degenerate"]
+            .map(|key| words.count(&format!("/releases/{key}")));
+    if merged.iter().any(|count| count != "0") {
+        let [joined, within, sheet, inside_out, degenerate] = merged;
+        let met = format!("{joined} joined to smoke, {within} within smoke that was there");
+        let refused = format!("refused: {sheet} at sheets, {inside_out} inside out, {degenerate} degenerate");
+        words.row("merged releases", &format!("{met}; {refused}"));
+    }
     if let (Some(released), Some(volume)) =
         (words.number("/conserved/volume/released"), words.number("/conserved/volume/final"))
     {

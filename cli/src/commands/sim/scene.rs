@@ -40,6 +40,7 @@ pub(super) struct SimScene {
 struct EmissionSpec {
     surface: SurfaceSpec,
     schedule: Schedule,
+    /// `"separate"`: a component of its own; `"merged"`: united with smoke that is there, which needs `[topology]` and `[integration]`.
     joining: Joining,
     path: Option<welter_fluids::procedural::Path>,
 }

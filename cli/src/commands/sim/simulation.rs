@@ -16,6 +16,7 @@ use welter_fluids::smoke::{
 use welter_meshing::Monitor;
 use welter_meshing::surface::measure::{area, signed_volume};
 use welter_meshing::surface::{Topology, TriMesh, TriangleSoup};
+use welter_tracking::surface::{UnionOutcome, UnionReport};
 
 /// A run of smoke, and the scene that moves it.
 #[derive(Debug)]
@@ -69,7 +70,10 @@ impl<'s> Smoke<'s> {
         let released: f64 = releases
             .iter()
             .filter(|release| release.refusal.is_none())
-            .filter_map(|release| self.volumes[release.emission])
+            .filter_map(|release| match &release.union {
+                Some(union) => Some(union.added_volume),
+                None => self.volumes[release.emission],
+            })
             .sum();
         let facts = json!({
             "vertices": mesh.positions().len(),
@@ -112,6 +116,11 @@ fn told(release: &Released) -> Value {
     let refused = match release.refusal {
         None => Value::Null,
         Some(Refusal::Intersection { pairs }) => json!({ "reason": "intersection", "pairs": pairs }),
+        Some(Refusal::Sheet) => json!({ "reason": "sheet" }),
+        Some(Refusal::InsideOut) => json!({ "reason": "inside out" }),
+        Some(Refusal::Degenerate { shifts, obstacle }) => {
+            json!({ "reason": "degenerate", "shifts": shifts, "obstacle": obstacle.to_string() })
+        }
         Some(Refusal::Budget { present }) => json!({ "reason": "budget", "present": present }),
         Some(_) => json!({ "reason": "other" }),
     };
@@ -121,6 +130,23 @@ fn told(release: &Released) -> Value {
         "time": release.release.time,
         "triangles": release.triangles,
         "refused": refused,
+        "union": release.union.as_ref().map(united),
+    })
+}
+
+/// What became of a release that was united with the smoke that was there.
+fn united(union: &UnionReport) -> Value {
+    let outcome = match union.outcome {
+        UnionOutcome::Beside => "beside",
+        UnionOutcome::Within => "within",
+        UnionOutcome::Joined => "joined",
+        _ => "other",
+    };
+    json!({
+        "outcome": outcome,
+        "shifts": union.shifts,
+        "segments": union.segments,
+        "added_volume": union.added_volume,
     })
 }
 

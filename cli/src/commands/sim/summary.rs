@@ -45,6 +45,8 @@ pub(super) fn summary(lines: &[&Value]) -> Map<String, Value> {
     seconds.insert("total".into(), json!(total));
     let releases = || lines.iter().filter_map(|line| line["releases"].as_array()).flatten();
     let refused = |reason: &str| releases().filter(|release| release["refused"]["reason"] == reason).count();
+    let united = |outcome: &str| releases().filter(|release| release["union"]["outcome"] == outcome).count();
+    let shifted = releases().filter(|release| release["union"]["shifts"].as_u64() > Some(0)).count();
     let released: f64 = lines.iter().filter_map(|line| number(&line, "released_volume")).sum();
     let volume = of("volume").as_f64();
     let error = volume.map(|volume| (volume - released) / released).filter(|error| error.is_finite());
@@ -59,7 +61,13 @@ pub(super) fn summary(lines: &[&Value]) -> Map<String, Value> {
         "conserved": { "volume": { "released": released, "final": volume, "relative_error": error } },
         "releases": {
             "made": releases().filter(|release| release["refused"].is_null()).count(),
-            "refused": { "intersection": refused("intersection"), "budget": refused("budget") },
+            "united": {
+                "joined": united("joined"), "within": united("within"), "shifted": shifted,
+            },
+            "refused": {
+                "intersection": refused("intersection"), "budget": refused("budget"), "sheet": refused("sheet"),
+                "inside_out": refused("inside out"), "degenerate": refused("degenerate"),
+            },
         },
         "reference_length": of("reference_length"),
         "operations": operations,
