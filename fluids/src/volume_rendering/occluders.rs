@@ -1,143 +1,168 @@
-//! Shadows of solids on the smoke: the depth along the light of the first solid, a [`DepthMap`].
+//! Shadows of solids on the smoke: which parts of a way no solid keeps from the light.
 //!
-//! Texels subdivide the columns of the shadow texture. A texel holds the depth of the first triangle that
-//! covers its middle, by the rule of the rasteriser; between texels the answer lit or not is interpolated,
-//! not the depth.
+//! # What it promises
+//! The parts are those of the solids' triangles, up to rounding: a ray goes dark where it passes behind the
+//! edge of a solid, not at the border of a texel. Gaps of less than [`SLIVER`] of a way count as dark, those
+//! that rounding leaves between neighbouring triangles among them.
+//!
+//! # Method
+//! What a triangle keeps from the light is a prism without end; a way is inside for an interval. The union
+//! of the intervals is taken by one pass over them in the order of their starts. Triangles are cut to what
+//! lies over the lattice and before its end, and what lies before its start is laid onto that.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::MAX_SIDE;
 use super::clip::{Corner, Polygon};
+use super::columns::Columns;
 use super::light_space::Lattice;
-use super::raster::{Footprint, Window, snap};
 
-/// Rows of texels that a thread takes at once.
-const BAND: usize = 16;
+/// Gaps between shadows shorter than this part of a way are closed.
+const SLIVER: f64 = 1.0 / (1_u64 << 24) as f64;
 
-/// Depths in lattice coordinates, infinite where there is no solid.
+/// Solids before the smoke or in it.
 #[derive(Debug)]
-pub(super) struct DepthMap {
-    depths: Vec<f32>,
-    size: [usize; 2],
-    /// Texels along a side of a voxel.
-    texels: f32,
+pub(super) struct Occluders {
+    columns: Columns,
 }
 
-impl DepthMap {
-    /// The map of triangles in scaled coordinates; none if none of them can cast a shadow on the smoke.
-    /// Texels are larger than asked for where a side would have more than [`MAX_SIDE`] of them.
-    pub(super) fn new(lattice: &Lattice, triangles: &[[DVec3; 3]], texels: u32) -> Option<Self> {
+/// Memory for [`Occluders::lit`].
+#[derive(Debug, Default)]
+pub(super) struct Spans {
+    found: Vec<u32>,
+    dark: Vec<[f64; 2]>,
+    /// The parts of the way that are lit, in order.
+    pub(super) lit: Vec<[f64; 2]>,
+}
+
+/// How much of a way is lit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lit {
+    All,
+    /// The parts in [`Spans::lit`], at least one.
+    Parts,
+    Nothing,
+}
+
+impl Occluders {
+    /// The triangles, in scaled coordinates, that can cast a shadow on the smoke; none if there are none.
+    pub(super) fn new(lattice: &Lattice, triangles: &[[DVec3; 3]]) -> Option<Self> {
         if lattice.is_empty() || triangles.is_empty() {
             return None;
         }
-        // Voxels along a side are at most 4096, a quarter of the most texels.
-        let texels = texels.min(MAX_SIDE / lattice.size[0].max(lattice.size[1]) as u32);
-        let pieces: Vec<Piece> = triangles
+        let parts: Vec<[DVec3; 3]> = triangles
             .par_iter()
             .with_min_len(1024)
-            .flat_map_iter(|triangle| pieces(lattice, triangle, texels))
+            .flat_map_iter(|triangle| parts(lattice, &triangle.map(|p| lattice.place(p))))
             .collect();
-        if pieces.is_empty() {
-            return None;
-        }
-        let [width, height] = map_size(lattice, texels);
-        let size = [width as usize, height as usize];
-        let mut depths = vec![f32::INFINITY; size[0] * size[1]];
-        depths.par_chunks_mut(size[0] * BAND).enumerate().for_each(|(band, depths)| {
-            let first = (band * BAND) as u32;
-            let rows = first..first + (depths.len() / size[0]) as u32;
-            let window = Window { x: 0..width, y: rows.clone() };
-            for piece in pieces.iter().filter(|piece| piece.footprint.meets_rows(&rows)) {
-                piece.footprint.cover(&window, |x, y, weights| {
-                    let depth: f64 = (0..3).map(|k| weights[k] * piece.depths[k]).sum();
-                    let texel = &mut depths[(y - first) as usize * size[0] + x as usize];
-                    *texel = texel.min(depth as f32);
-                });
-            }
-        });
-        Some(Self { depths, size, texels: texels as f32 })
+        let [nx, ny, _] = lattice.size;
+        (!parts.is_empty()).then(|| Self { columns: Columns::new(&parts, [nx, ny]) })
     }
 
-    /// How much of the surroundings of a point, in lattice coordinates, is before all solids.
+    /// Which parts of the way between two points, in lattice coordinates, no solid keeps from the light.
     #[inline]
-    pub(super) fn lit(&self, [x, y, z]: [f32; 3]) -> f32 {
-        let ((i, next_i, u), (j, next_j, v)) =
-            (between(x * self.texels, self.size[0]), between(y * self.texels, self.size[1]));
-        let lit = |i: usize, j: usize| f32::from(u8::from(z <= self.depths[j * self.size[0] + i]));
-        let upper = (1.0 - u) * lit(i, j) + u * lit(next_i, j);
-        let lower = (1.0 - u) * lit(i, next_j) + u * lit(next_i, next_j);
-        (1.0 - v) * upper + v * lower
+    pub(super) fn lit(&self, from: DVec3, to: DVec3, spans: &mut Spans) -> Lit {
+        self.columns.along(from, to, &mut spans.found);
+        spans.dark.clear();
+        for &index in &spans.found {
+            match self.columns.prism(index).behind(from, to) {
+                None => {}
+                Some([start, end]) if start <= 0.0 && end >= 1.0 => return Lit::Nothing,
+                Some(part) => spans.dark.push(part),
+            }
+        }
+        if spans.dark.is_empty() { Lit::All } else { spans.remainder() }
     }
 }
 
-/// The two texels with middles next to a coordinate, and the part of the way between them.
-#[inline]
-fn between(coordinate: f32, count: usize) -> (usize, usize, f32) {
-    let inside = (coordinate - 0.5).max(0.0).min((count - 1) as f32);
-    let texel = (inside as usize).min(count - 1);
-    (texel, (texel + 1).min(count - 1), inside - texel as f32)
+impl Spans {
+    /// What the dark parts leave.
+    fn remainder(&mut self) -> Lit {
+        self.dark.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+        self.lit.clear();
+        let mut reached = 0.0_f64;
+        for &[start, end] in &self.dark {
+            if start - reached >= SLIVER {
+                self.lit.push([reached, start]);
+            }
+            reached = reached.max(end);
+        }
+        if 1.0 - reached >= SLIVER {
+            self.lit.push([reached, 1.0]);
+        }
+        if self.lit.is_empty() { Lit::Nothing } else { Lit::Parts }
+    }
 }
 
-/// A part of a triangle, seen along the light.
-struct Piece {
-    footprint: Footprint,
-    depths: [f64; 3],
-}
-
-/// Texels along both sides, at most [`MAX_SIDE`].
-fn map_size(lattice: &Lattice, texels: u32) -> [u32; 2] {
-    [lattice.size[0] as u32 * texels, lattice.size[1] as u32 * texels]
-}
-
-/// The parts of a triangle that lie before the end of the lattice and over it.
-fn pieces(lattice: &Lattice, triangle: &[DVec3; 3], texels: u32) -> Vec<Piece> {
+/// The parts of a triangle in lattice coordinates that lie over the lattice and before its end; what lies
+/// before its start is moved onto that.
+fn parts(lattice: &Lattice, triangle: &[DVec3; 3]) -> Vec<[DVec3; 3]> {
     let [nx, ny, nz] = lattice.size.map(|n| n as f64);
-    let placed = triangle.map(|p| lattice.place(p));
-    let far = placed.iter().all(|p| p.z >= nz);
-    let beside = [(0, nx), (1, ny)]
-        .into_iter()
-        .any(|(axis, end)| placed.iter().all(|p| p[axis] <= 0.0) || placed.iter().all(|p| p[axis] >= end));
-    if far || beside {
-        return Vec::new();
-    }
-    let mut polygon = Polygon::triangle(placed.map(|point| Corner { point, value: point.z }));
-    let mut cut = polygon;
-    // A voxel of margin, so that snapping to the grid does not uncover a texel at the border.
+    let mut over = Polygon::triangle(triangle.map(|point| Corner { point, value: 0.0 }));
+    let mut spare = over;
+    // A voxel of margin, so that rounding does not uncover the border.
     for (axis, end) in [(0, nx + 1.0), (1, ny + 1.0)] {
-        polygon.cut(|p| p[axis] + 1.0, |p| p[axis] = -1.0, &mut cut);
-        cut.cut(|p| end - p[axis], |p| p[axis] = end, &mut polygon);
+        over.cut(|p| p[axis] + 1.0, |p| p[axis] = -1.0, &mut spare);
+        spare.cut(|p| end - p[axis], |p| p[axis] = end, &mut over);
     }
-    let size = map_size(lattice, texels);
-    let place = |point: DVec3| {
-        let texels = f64::from(texels);
-        let at = |v: f64, n: u32| snap(v * texels - 0.5 * f64::from(n)) + ((n as i32) << 14);
-        [at(point.x, size[0]), at(point.y, size[1])]
-    };
-    let fan = |pair: &[Corner]| {
-        let corners = [polygon.corners()[0], pair[0], pair[1]];
-        let footprint = Footprint::new(corners.map(|c| place(c.point)), size)?;
-        Some(Piece { footprint, depths: corners.map(|c| c.value) })
-    };
-    polygon.corners().get(1..).unwrap_or_default().windows(2).filter_map(fan).collect()
+    let flat = |p: DVec3| DVec3::new(p.x, p.y, 0.0);
+    if over.corners().iter().all(|corner| corner.point.z <= 0.0) {
+        return fans(&over).map(|part| part.map(flat)).collect();
+    }
+    let (mut before, mut within) = (over, over);
+    over.cut(|p| -p.z, |p| p.z = 0.0, &mut before);
+    over.cut(|p| p.z, |p| p.z = 0.0, &mut spare);
+    spare.cut(|p| nz - p.z, |p| p.z = nz, &mut within);
+    fans(&before).map(|part| part.map(flat)).chain(fans(&within)).collect()
+}
+
+/// The triangles of a convex polygon.
+fn fans(polygon: &Polygon) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+    let corners = polygon.corners();
+    let pairs = corners.get(1..).unwrap_or_default().windows(2);
+    pairs.map(|pair| [corners[0].point, pair[0].point, pair[1].point])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_half_plane_casts_a_shadow_with_a_narrow_edge() {
+    fn lattice() -> Lattice {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-        let lattice = Lattice { axes, origin: DVec3::ZERO, spacing: 1.0, size: [8, 8, 8] };
-        let triangle = [DVec3::new(4.0, -1e9, 3.0), DVec3::new(4.0, 1e9, 3.0), DVec3::new(-1e9, 0.0, 3.0)];
-        let map = DepthMap::new(&lattice, &[triangle], 4).expect("it lies before the smoke");
+        Lattice { axes, origin: DVec3::ZERO, spacing: 1.0, size: [8, 8, 8] }
+    }
+
+    #[test]
+    fn a_half_plane_casts_a_shadow_with_a_sharp_edge() {
+        let triangle = [DVec3::new(4.3, -1e9, 3.0), DVec3::new(4.3, 1e9, 3.0), DVec3::new(-1e9, 0.0, 3.0)];
+        let occluders = Occluders::new(&lattice(), &[triangle]).expect("it lies before the smoke's end");
+        let mut spans = Spans::default();
+        let mut lit = |from: [f64; 3], to: [f64; 3]| {
+            let lit = occluders.lit(DVec3::from_array(from), DVec3::from_array(to), &mut spans);
+            (lit, spans.lit.clone())
+        };
         for y in [0.0, 3.3, 8.0] {
-            assert_eq!([2.0, 3.8].map(|x| map.lit([x, y, 3.5])), [0.0; 2]);
-            assert_eq!([2.0, 3.8].map(|x| map.lit([x, y, 2.5])), [1.0; 2]);
-            assert_eq!([4.2, 7.0].map(|x| map.lit([x, y, 3.5])), [1.0; 2]);
-            assert_eq!(map.lit([4.0, y, 3.5]), 0.5);
+            assert_eq!(lit([2.0, y, 3.5], [4.2, y, 6.0]).0, Lit::Nothing);
+            assert_eq!(lit([2.0, y, 0.5], [4.2, y, 2.9]).0, Lit::All);
+            assert_eq!(lit([4.4, y, 3.5], [7.0, y, 6.0]).0, Lit::All);
+            let (parts, list) = lit([3.3, y, 3.5], [5.3, y, 4.5]);
+            assert!(parts == Lit::Parts && list.len() == 1);
+            assert!((list[0][0] - 0.5).abs() < 1e-9 && list[0][1] == 1.0, "{list:?}");
+            let (parts, list) = lit([1.0, y, 2.0], [1.0, y, 6.0]);
+            assert!(parts == Lit::Parts && list == [[0.0, 0.25]], "{list:?}");
         }
-        assert!(DepthMap::new(&lattice, &[triangle.map(|p| p + 6.0 * DVec3::Z)], 4).is_none());
+        assert!(Occluders::new(&lattice(), &[triangle.map(|p| p + 6.0 * DVec3::Z)]).is_none());
+        let before = triangle.map(|p| p - 1e300 * DVec3::Z);
+        let occluders = Occluders::new(&lattice(), &[before]).expect("it lies before the smoke");
+        assert_eq!(occluders.lit(DVec3::ONE, 3.0 * DVec3::ONE, &mut spans), Lit::Nothing);
+    }
+
+    #[test]
+    fn shadows_are_joined_and_the_rest_is_lit() {
+        let mut spans = Spans { dark: vec![[0.5, 0.6], [0.1, 0.3], [0.2, 0.4], [0.4 + 1e-12, 0.45]], ..Spans::default() };
+        assert_eq!(spans.remainder(), Lit::Parts);
+        assert_eq!(spans.lit, [[0.0, 0.1], [0.45, 0.5], [0.6, 1.0]]);
+        spans.dark = vec![[0.3, 1.0], [0.0, 0.3 - 1e-15]];
+        assert_eq!(spans.remainder(), Lit::Nothing);
     }
 }

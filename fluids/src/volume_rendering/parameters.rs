@@ -13,9 +13,6 @@ pub struct RenderParameters {
     /// 4096. Voxels are cubes, so this sets the other sides. Default: 128, between the sides of the texture
     /// of \[Brochu12, section 6.7\].
     pub shadow_resolution: u32,
-    /// Texels of the map of shadows that solids cast, along a side of a voxel; from 1 to 16. Default: 4: an
-    /// edge of such a shadow is a quarter of a voxel wide, and the map is smaller than the texture.
-    pub solid_shadow_resolution: u32,
     /// Most optical depth between two samples of the light along a ray; they are also at most a voxel apart.
     /// From 2^-10 to 1. Default: 1/4: what the light of a sample misses is below (1/4)^2 / 24 of it where
     /// light falls off at that rate too.
@@ -33,7 +30,6 @@ impl Default for RenderParameters {
             width: 960,
             height: 540,
             shadow_resolution: 128,
-            solid_shadow_resolution: 4,
             optical_step: 0.25,
             dark: 1.0 / 4096.0,
             age_blur: None,
@@ -55,11 +51,9 @@ impl RenderParameters {
         {
             return Err(RenderError::ImageSize { width, height });
         }
-        let (voxels, texels) = (self.shadow_resolution, self.solid_shadow_resolution);
+        let voxels = self.shadow_resolution;
         let fits = (1..=4096).contains(&voxels);
         RenderError::require(fits, "shadow_resolution", f64::from(voxels), "from 1 to 4096")?;
-        let fits = (1..=16).contains(&texels);
-        RenderError::require(fits, "solid_shadow_resolution", f64::from(texels), "from 1 to 16")?;
         let fits = (1.0 / 1024.0..=1.0).contains(&self.optical_step);
         RenderError::require(fits, "optical_step", self.optical_step, "from 2^-10 to 1")?;
         let fits = (1.0 / f64::from(1 << 30)..=0.5).contains(&self.dark);

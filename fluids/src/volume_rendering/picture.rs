@@ -8,7 +8,7 @@ use welter_meshing::surface::{ClosedOrientedMesh, TriId};
 
 use super::camera::View;
 use super::light_space::Lattice;
-use super::occluders::DepthMap;
+use super::occluders::Occluders;
 use super::pixels::{Planes, Studio};
 use super::scattering::Sampling;
 use super::shadow::Shadow;
@@ -210,6 +210,6 @@ fn shadow(
         (0..count).map(|t| mesh.corners(TriId::from_index(t)).map(|p| p * scale)).collect::<Vec<_>>()
     };
     let solids: Vec<[DVec3; 3]> = scene.solids.iter().flat_map(|solid| triangles(solid.mesh)).collect();
-    let map = DepthMap::new(&lattice, &solids, parameters.solid_shadow_resolution);
-    Ok(Shadow::new(lattice, &corners, map, extinction, scene.medium.interior))
+    let occluders = Occluders::new(&lattice, &solids);
+    Ok(Shadow::new(lattice, &corners, occluders, extinction, scene.medium.interior))
 }

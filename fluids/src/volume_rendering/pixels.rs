@@ -13,7 +13,7 @@ use super::project::Piece;
 use super::raster::Window;
 use super::resolve::{stretches, winding_in_eye};
 use super::scattering::{Ray, Sampling, Travelled};
-use super::shadow::Shadow;
+use super::shadow::{Scratch, Shadow};
 use super::solids::{Solids, Surfaces};
 use super::{Image, InteriorRule};
 
@@ -137,13 +137,13 @@ impl Studio<'_> {
     ) {
         let lattice = self.shadow.lattice();
         let origin = lattice.place(self.view.eye).to_array();
-        let mut pixel = 0;
+        let (mut pixel, mut scratch) = (0, Scratch::default());
         for y in tile.y.clone() {
             for x in tile.x.clone() {
                 let along = self.view.ray(x, y);
                 let ray = self.view.turned_back(along);
                 let at = (y as usize - band.first) * self.view.width as usize + x as usize;
-                let surface = self.solids.shade(surfaces, pixel, self.view.eye, ray, &self.shadow);
+                let surface = self.solids.shade(surfaces, pixel, self.view.eye, ray, &self.shadow, &mut scratch);
                 if let Some(color) = surface {
                     band.backdrop[at] = color;
                 }
@@ -160,7 +160,7 @@ impl Studio<'_> {
                     };
                     let mut travelled = Travelled::start();
                     stretches(met, surfaces.depth(pixel), self.rule, |stretch| {
-                        travelled.pass(&stretch, &ray, &self.shadow, &self.sampling);
+                        travelled.pass(&stretch, &ray, &self.shadow, &self.sampling, &mut scratch);
                     });
                     band.alpha[at] = travelled.alpha() as f32;
                     band.scatter[at] = travelled.scatter() as f32;

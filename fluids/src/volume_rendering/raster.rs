@@ -102,11 +102,6 @@ impl Footprint {
         Window { x: self.low[0]..self.high[0], y: self.low[1]..self.high[1] }
     }
 
-    #[inline]
-    pub(super) fn meets_rows(&self, rows: &Range<u32>) -> bool {
-        self.low[1] < rows.end && self.high[1] > rows.start
-    }
-
     /// All covered samples of a window: column, row, weights of the corners.
     #[inline]
     pub(super) fn cover(&self, window: &Window, mut visit: impl FnMut(u32, u32, [f64; 3])) {

@@ -19,10 +19,12 @@
 //! Steps are of one length in each stretch, at most a voxel, at most a given optical depth. Light from beyond
 //! a given optical depth no longer gets samples of its own.
 
+use glam::DVec3;
+
 use super::RenderParameters;
 use super::exponential::exp_of_minus;
 use super::resolve::Stretch;
-use super::shadow::{LANES, Shadow};
+use super::shadow::{LANES, Scratch, Shadow, centre};
 
 /// What a ray meets on its way, as far as it has been followed.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +47,12 @@ pub(super) struct Ray {
     pub(super) direction: [f64; 3],
     /// Optical depth of smoke of density 1 for each unit of depth.
     pub(super) optical_depth: f64,
+}
+
+impl Ray {
+    fn at(&self, depth: f64) -> DVec3 {
+        DVec3::from_array(self.origin) + depth * DVec3::from_array(self.direction)
+    }
 }
 
 /// How finely rays are sampled.
@@ -81,7 +89,14 @@ impl Travelled {
     }
 
     /// Goes on through a stretch of smoke.
-    pub(super) fn pass(&mut self, stretch: &Stretch, ray: &Ray, shadow: &Shadow, sampling: &Sampling) {
+    pub(super) fn pass(
+        &mut self,
+        stretch: &Stretch,
+        ray: &Ray,
+        shadow: &Shadow,
+        sampling: &Sampling,
+        scratch: &mut Scratch,
+    ) {
         let length = stretch.far - stretch.near;
         self.length += length;
         self.age_times_length += length * stretch.age;
@@ -90,7 +105,7 @@ impl Travelled {
         let mut unsampled = front;
         if sampled > 0.0 {
             let far = stretch.near + length * (sampled / optical_depth);
-            self.scatter += front * self.sample(stretch.near, far, sampled, ray, shadow, sampling);
+            self.scatter += front * self.sample([stretch.near, far], sampled, ray, shadow, sampling, scratch);
             unsampled = front * libm::exp(-sampled);
         }
         self.clear = unsampled;
@@ -105,12 +120,12 @@ impl Travelled {
     /// first.
     fn sample(
         &mut self,
-        near: f64,
-        far: f64,
+        [near, far]: [f64; 2],
         optical_depth: f64,
         ray: &Ray,
         shadow: &Shadow,
         sampling: &Sampling,
+        scratch: &mut Scratch,
     ) -> f64 {
         let length = far - near;
         // No stretch is longer than the lattice, but by rounding where it is a speck for the eye.
@@ -119,10 +134,7 @@ impl Travelled {
         let voxels = voxels.min((nx + ny + nz) as f64);
         let steps = (optical_depth / sampling.optical_step).max(voxels).ceil().max(1.0);
         let (step, depth_step) = (optical_depth / steps, length / steps);
-        // Where in a step the mean place of the scattered light is: 1 / t - 1 / (exp(t) - 1), whose next term
-        // is below 3e-5 t.
-        let centre = 0.5 - step / 12.0 + step * step * step / 720.0;
-        let first = near + centre * depth_step;
+        let first = near + centre(step) * depth_step;
         let start = [0, 1, 2].map(|k| (ray.origin[k] + first * ray.direction[k]) as f32);
         let stride = [0, 1, 2].map(|k| (depth_step * ray.direction[k]) as f32);
         let passed = exp_of_minus(step as f32);
@@ -135,8 +147,15 @@ impl Travelled {
                     *place = start[axis] + (block + lane as u32) as f32 * stride[axis];
                 }
             }
-            let light = shadow.transmittances(&at);
-            for &light in light.iter().take((steps - block) as usize) {
+            let mut lights = shadow.transmittances(&at);
+            let count = ((steps - block) as usize).min(LANES);
+            if !shadow.is_smooth() {
+                for (at, light) in (block..).zip(&mut lights[..count]) {
+                    let ends = [at, at + 1].map(|k| ray.at(near + f64::from(k) * depth_step));
+                    *light = shadow.mean(ends, step, *light, scratch);
+                }
+            }
+            for &light in &lights[..count] {
                 sum += weight * light;
                 weight *= passed;
                 self.light = light;

@@ -19,7 +19,8 @@ use rayon::prelude::*;
 
 use super::exponential::{exp_of_minus, exps_of_minus};
 use super::light_space::Lattice;
-use super::occluders::DepthMap;
+use super::light_paths::{Before, LightPaths};
+use super::occluders::{Lit, Occluders, Spans};
 use super::{InteriorRule, voxels};
 
 /// Points of which the light is looked up together, so that the arithmetic is that of vectors.
@@ -30,9 +31,18 @@ pub(super) const LANES: usize = 8;
 pub(super) struct Shadow {
     lattice: Lattice,
     texture: Texture,
-    solids: Option<DepthMap>,
+    occluders: Option<Occluders>,
+    /// The smoke's surface, where the texture does not do.
+    paths: Option<LightPaths>,
     /// Optical depth of a voxel full of smoke.
     optical_depth: f32,
+}
+
+/// Memory for what is not looked up in the texture.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    spans: Spans,
+    before: Before,
 }
 
 impl Shadow {
@@ -40,7 +50,7 @@ impl Shadow {
     pub(super) fn new(
         lattice: Lattice,
         corners: &[[DVec3; 3]],
-        solids: Option<DepthMap>,
+        occluders: Option<Occluders>,
         extinction: f64,
         rule: InteriorRule,
     ) -> Self {
@@ -50,49 +60,89 @@ impl Shadow {
             corners.par_iter().with_min_len(4096).map(|t| t.map(|p| lattice.place_inside(p))).collect()
         };
         let volumes = voxels::volumes(&placed, lattice.size);
-        Self::of_volumes(lattice, &volumes, solids, extinction, rule)
+        let mut shadow = Self::of_volumes(lattice, &volumes, extinction, rule);
+        shadow.occluders = occluders;
+        let [nx, ny, _] = shadow.lattice.size;
+        if std::env::var("WP").is_ok() && !placed.is_empty() {
+            shadow.paths = Some(LightPaths::new(&placed, [nx, ny], rule, f64::from(shadow.optical_depth)));
+        }
+        shadow
     }
 
     /// The texture of smoke of which the volume in each voxel is known, in voxels.
     pub(super) fn of_volumes(
         lattice: Lattice,
         volumes: &[f64],
-        solids: Option<DepthMap>,
         extinction: f64,
         rule: InteriorRule,
     ) -> Self {
         let texture = Texture::new(volumes, lattice.size, rule);
         let optical_depth = (extinction * lattice.spacing).min(f64::from(f32::MAX)) as f32;
-        Self { lattice, texture, solids, optical_depth }
+        Self { lattice, texture, occluders: None, paths: None, optical_depth }
     }
 
     pub(super) fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// The share of the light that arrives at points of the smoke, in lattice coordinates (all first ones,
-    /// then all second ones, ...).
+    /// The share of the light that the smoke lets through to points in it, in lattice coordinates (all first
+    /// ones, then all second ones, ...).
     #[inline]
-    pub(super) fn transmittances(&self, at: &[[f32; LANES]; 3]) -> [f32; LANES] {
+    pub(super) fn transmittances<const N: usize>(&self, at: &[[f32; N]; 3]) -> [f32; N] {
         if self.texture.lengths.is_empty() {
             // Smoke so small that its voxels would have no side shadows nothing.
-            return [1.0; LANES];
+            return [1.0; N];
         }
         let mut depths = self.texture.lengths(at);
         for depth in &mut depths {
             *depth *= self.optical_depth;
         }
-        let mut shares = exps_of_minus(&depths);
-        if let Some(map) = &self.solids {
-            for lane in 0..LANES {
-                shares[lane] *= map.lit([at[0][lane], at[1][lane], at[2][lane]]);
+        exps_of_minus(&depths)
+    }
+
+    /// Whether the light is that of the smoke's texture everywhere.
+    #[inline]
+    pub(super) fn is_smooth(&self) -> bool {
+        self.occluders.is_none() && self.paths.is_none()
+    }
+
+    /// The mean share of the light on a short way inside the smoke, in lattice coordinates, by the weight of
+    /// what is seen of it through its own optical depth, if `light` is that of the texture at the mean place.
+    pub(super) fn mean(
+        &self,
+        [from, to]: [DVec3; 2],
+        optical_depth: f64,
+        light: f32,
+        scratch: &mut Scratch,
+    ) -> f32 {
+        let lit = match &self.occluders {
+            None => Lit::All,
+            Some(occluders) => occluders.lit(from, to, &mut scratch.spans),
+        };
+        let parts: &[[f64; 2]] = match lit {
+            Lit::Nothing => return 0.0,
+            Lit::All => &[[0.0, 1.0]],
+            Lit::Parts => &scratch.spans.lit,
+        };
+        if let Some(paths) = &self.paths {
+            if paths.find(from, to, &mut scratch.before) <= most() {
+                return paths.mean([from, to], optical_depth, parts, &mut scratch.before) as f32;
             }
         }
-        shares
+        if lit == Lit::All {
+            return light;
+        }
+        let of_part = |&[start, end]: &[f64; 2]| {
+            let place = start + (end - start) * centre((end - start) * optical_depth);
+            let at = (from + place * (to - from)).to_array().map(|c| [c as f32]);
+            let [light] = self.transmittances(&at);
+            weight([start, end], optical_depth) * f64::from(light)
+        };
+        parts.iter().map(of_part).sum::<f64>() as f32
     }
 
     /// The share of the light that the smoke lets through to a point anywhere, in scaled coordinates.
-    pub(super) fn transmittance_of_smoke(&self, point: DVec3) -> f32 {
+    pub(super) fn transmittance_of_smoke(&self, point: DVec3, scratch: &mut Scratch) -> f64 {
         if self.lattice.is_empty() {
             return 1.0;
         }
@@ -101,9 +151,30 @@ impl Shadow {
         if !(0.0..=nx).contains(&p.x) || !(0.0..=ny).contains(&p.y) || p.z.is_nan() {
             return 1.0;
         }
-        let [length] = self.texture.lengths(&[[p.x as f32], [p.y as f32], [p.z as f32]]);
-        exp_of_minus(self.optical_depth * length)
+        let traced = self.paths.as_ref().and_then(|paths| paths.transmittance(p, &mut scratch.before));
+        traced.unwrap_or_else(|| {
+            let [length] = self.texture.lengths(&[[p.x as f32], [p.y as f32], [p.z as f32]]);
+            f64::from(exp_of_minus(self.optical_depth * length))
+        })
     }
+}
+
+fn most() -> usize {
+    static M: std::sync::OnceLock<usize> = std::sync::OnceLock::new();
+    *M.get_or_init(|| std::env::var("WP").unwrap().parse().unwrap())
+}
+
+/// Where on a way through smoke of an optical depth the mean place of the light scattered to the eye is, in
+/// parts of the way: `1 / t - 1 / (exp(t) - 1)`, whose next term is below 3e-5 t.
+#[inline]
+pub(super) fn centre(t: f64) -> f64 {
+    0.5 - t / 12.0 + t * t * t / 720.0
+}
+
+/// How much a part of a way through smoke of an optical depth has of what is seen of all of it.
+fn weight([start, end]: [f64; 2], t: f64) -> f64 {
+    let whole = -libm::expm1(-t);
+    if whole > 0.0 { libm::exp(-start * t) * -libm::expm1(-(end - start) * t) / whole } else { end - start }
 }
 
 /// Voxels of smoke that the light has passed, at the faces of the voxels.
@@ -210,7 +281,7 @@ mod tests {
         let lattice =
             Lattice { axes: [DVec3::X, DVec3::Y, DVec3::Z], origin: DVec3::ZERO, spacing: 1.0, size };
         let texture = Texture::new(volumes, size, InteriorRule::NonZero);
-        Shadow { lattice, texture, solids: None, optical_depth: 1.0 }
+        Shadow { lattice, texture, occluders: None, paths: None, optical_depth: 1.0 }
     }
 
     #[test]
@@ -232,9 +303,10 @@ mod tests {
     #[test]
     fn nothing_is_shadowed_beside_the_smoke() {
         let shadow = texture(&[1.0; 8], [2; 3]);
-        assert_eq!(shadow.transmittance_of_smoke(DVec3::new(-0.1, 1.0, 2.0)), 1.0);
-        assert_eq!(shadow.transmittance_of_smoke(DVec3::new(1.0, 1.0, -5.0)), 1.0);
-        let behind = shadow.transmittance_of_smoke(DVec3::new(1.0, 1.0, 9.0));
-        assert!((behind - (-2.0_f32).exp()).abs() < 1e-6);
+        let mut scratch = Scratch::default();
+        assert_eq!(shadow.transmittance_of_smoke(DVec3::new(-0.1, 1.0, 2.0), &mut scratch), 1.0);
+        assert_eq!(shadow.transmittance_of_smoke(DVec3::new(1.0, 1.0, -5.0), &mut scratch), 1.0);
+        let behind = shadow.transmittance_of_smoke(DVec3::new(1.0, 1.0, 9.0), &mut scratch);
+        assert!((behind - (-2.0_f64).exp()).abs() < 1e-6);
     }
 }

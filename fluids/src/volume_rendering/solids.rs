@@ -12,7 +12,7 @@ use welter_meshing::surface::TriId;
 use super::camera::{View, unit};
 use super::project::{Piece, project};
 use super::raster::Window;
-use super::shadow::Shadow;
+use super::shadow::{Scratch, Shadow};
 use super::{Scene, Solid};
 
 /// How far beside a surface the rays to the light start, in units of the largest coordinate.
@@ -102,6 +102,7 @@ impl<'a> Solids<'a> {
         eye: DVec3,
         ray: DVec3,
         shadow: &Shadow,
+        scratch: &mut Scratch,
     ) -> Option<[f32; 3]> {
         let piece = self.pieces.get(surfaces.pieces[pixel] as usize)?;
         let at = piece.triangle as usize;
@@ -117,7 +118,7 @@ impl<'a> Solids<'a> {
         let cosine = normal.dot(self.to_light);
         let mut direct = 0.0;
         if cosine > 0.0 && self.is_lit(point + BESIDE * normal) {
-            direct = cosine * f64::from(shadow.transmittance_of_smoke(point));
+            direct = cosine * shadow.transmittance_of_smoke(point, scratch);
         }
         let albedo = self.solids[solid].albedo;
         Some([0, 1, 2].map(|k| (albedo[k] * (self.light[k] * direct + self.ambient[k])) as f32))

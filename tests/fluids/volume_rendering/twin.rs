@@ -17,7 +17,7 @@ const SIZE: [u32; 2] = [96, 72];
 /// shadow of a solid ends within a step, and by less than 1e-5 without solids.
 const STEPS: u32 = 400;
 
-/// One pixel in so many is compared.
+/// One pixel in so many is compared; `WELTER_RENDERED_STRIDE` sets another number.
 const STRIDE: usize = 23;
 
 /// Differences of the channels, in parts of the largest value of each.
@@ -40,7 +40,8 @@ fn errors(scene: &Scene<'_>, parameters: &RenderParameters) -> Errors {
     let (picture, report) = drawn(scene, parameters);
     assert_eq!(report.pixels_from_inside, 0);
     let tracer = Tracer::new(scene);
-    let pixels: Vec<u32> = (0..SIZE[0] * SIZE[1]).step_by(STRIDE).collect();
+    let stride = std::env::var("WELTER_RENDERED_STRIDE").map_or(STRIDE, |text| text.parse().unwrap());
+    let pixels: Vec<u32> = (0..SIZE[0] * SIZE[1]).step_by(stride).collect();
     let rows: Vec<([f64; 5], [f64; 5])> = pixels
         .into_par_iter()
         .map(|pixel| {
@@ -136,25 +137,23 @@ fn a_torus() {
     agrees("torus", &scene(&torus, 2.0), 128, 0.0);
 }
 
-/// A sheet has to be some voxels thick: of one as thick as two, scatter differs by 6 % (told, not asked for).
+/// A bent sheet of so many voxels across.
 #[test]
-fn a_thin_sheet() {
-    for (thickness, least) in [(0.08, true), (0.02, false)] {
-        let high = DVec3::new(1.0, 1.0, thickness);
-        let flat = box_(&Box_ { min: DVec3::new(-1.0, -1.0, 0.0), max: high, edge_length: 0.5 }).unwrap();
-        let bent = moved(&flat, |p| p + DVec3::Z * 0.2 * p.x * p.x);
-        let scene = scene(&bent, 0.6 / thickness);
-        if least {
-            agrees("sheet", &scene, 256, 0.0);
-        } else {
-            let errors = errors(&scene, &parameters(SIZE[0], SIZE[1], 256));
-            println!(
-                "sheet of a hundredth of its side, 256 voxels: scatter differs by {:.2e} at most",
-                errors.worst[1]
-            );
-            assert!(errors.worst[0] < 1e-3 && errors.worst[1] < 0.1);
+fn sheets() {
+    for resolution in [128, 256] {
+        for voxels in [1.0, 2.0, 4.0, 8.0] {
+            // The longest side of the sheet, seen from the light.
+            let thickness = voxels * 2.75 / f64::from(resolution);
+            let smoke = sheet(thickness);
+            agrees(&format!("sheet of {voxels} voxels"), &scene(&smoke, 0.6 / thickness), resolution, 0.0);
         }
     }
+}
+
+fn sheet(thickness: f64) -> ClosedOrientedMesh {
+    let high = DVec3::new(1.0, 1.0, thickness);
+    let flat = box_(&Box_ { min: DVec3::new(-1.0, -1.0, 0.0), max: high, edge_length: 0.5 }).unwrap();
+    moved(&flat, |p| p + DVec3::Z * 0.2 * p.x * p.x)
 }
 
 /// At the edge of the shadow of a ball on a plate the smoke's thickness rises like a square root, and at that

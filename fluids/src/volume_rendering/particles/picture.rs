@@ -16,7 +16,7 @@ use super::super::pixels::Planes;
 use super::super::raster::Window;
 use super::super::resolve::Stretch;
 use super::super::scattering::{Ray, Sampling, Travelled};
-use super::super::shadow::Shadow;
+use super::super::shadow::{Scratch, Shadow};
 use super::super::{Image, InteriorRule, Picture, RenderError, RenderParameters, RenderSeconds};
 use super::columns::{Columns, Slices};
 use super::discs::Disc;
@@ -142,7 +142,7 @@ fn shadow(
         let side = radius / scene.radius_rel;
         volumes = deposit::volumes(&centers, radius, side * side * side, lattice.size);
     }
-    Ok(Shadow::of_volumes(lattice, &volumes, None, extinction, InteriorRule::Multiplicity))
+    Ok(Shadow::of_volumes(lattice, &volumes, extinction, InteriorRule::Multiplicity))
 }
 
 /// All that pixels are made from, in scaled coordinates.
@@ -221,7 +221,7 @@ impl Easel {
     fn draw_tile(&self, tile: &Window, columns: &Columns, band: &mut Band<'_>, report: &mut ParticleReport) {
         let lattice = self.shadow.lattice();
         let origin = lattice.place(self.view.eye).to_array();
-        let mut pixel = 0;
+        let (mut pixel, mut scratch) = (0, Scratch::default());
         for y in tile.y.clone() {
             for x in tile.x.clone() {
                 let column = columns.of(pixel);
@@ -243,7 +243,7 @@ impl Easel {
                     if length > 0.0 && end > near {
                         let density = length / (far * (end - near));
                         let stretch = Stretch { near, far: end, age: 0.0, density };
-                        travelled.pass(&stretch, &ray, &self.shadow, &self.sampling);
+                        travelled.pass(&stretch, &ray, &self.shadow, &self.sampling, &mut scratch);
                     }
                 }
                 let at = (y as usize - band.first) * self.view.width as usize + x as usize;

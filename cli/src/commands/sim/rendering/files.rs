@@ -3,7 +3,8 @@
 //! Promises: alpha and scatter are 16 bits of grey, 65535 for 1; age too, 65535 for an age that the scene gives, and for all above. The
 //! colours of composite and backdrop have 8 or 16 bits, with the transfer curve of sRGB (IEC 61966-2-1) and marked so; a radiance
 //! below 0 is written as 0, one above 1 as 1. EXR holds the numbers as they are, linear: R, G, B for the composite, and channels of the layers
-//! alpha, scatter, age (Y) and backdrop (R, G, B); compressed without loss, in 32 bits, or rounded to 16. No time, no name of a program: the
+//! alpha, scatter, age (Y) and backdrop (R, G, B); compressed without loss, in 32 bits, or rounded to 16. A channel with a number beyond
+//! those of 16 bits, above 65,504, stays at 32 bits, whatever was asked for, as other channels do not. No time, no name of a program: the
 //! same picture gives the same bytes.
 
 use crate::render::Rgb;
@@ -117,10 +118,15 @@ fn encode(
     Ok(file)
 }
 
+/// Whether a number has one of 16 bits next to it, not infinity: the largest is 65,504.
+fn fits_half(value: f32) -> bool {
+    f16::from_f32(value).is_finite()
+}
+
 /// Planes as one EXR file.
 pub(super) fn exr(picture: &Picture, planes: &[Plane], half: bool) -> io::Result<Vec<u8>> {
     let channel = |name: String, values: Vec<f32>| {
-        let samples = if half {
+        let samples = if half && values.iter().all(|&value| fits_half(value)) {
             FlatSamples::F16(values.into_iter().map(f16::from_f32).collect())
         } else {
             FlatSamples::F32(values)
@@ -283,5 +289,28 @@ mod tests {
             assert!(worst <= 1.0 / 2048.0, "{name}: {worst}");
         }
         assert_eq!(channels(&exr(&picture, &[Plane::Age], false).unwrap()).len(), 1);
+    }
+
+    #[test]
+    fn what_half_precision_does_not_hold_is_written_in_single() {
+        let mut picture = picture();
+        // Numbers up to 65,519 round to the largest of 16 bits, from 65,520 on to infinity.
+        for (largest, exact) in [(65_504.0_f32, false), (65_519.0, false), (65_520.0, true), (1e12, true)] {
+            picture.composite.at_mut(3, 2)[0] = largest;
+            let read = channels(&exr(&picture, &[Plane::Composite, Plane::Alpha], true).unwrap());
+            let values = |wanted: &str| &read.iter().find(|(name, _)| name == wanted).unwrap().1;
+            let red = || picture.composite.pixels().iter().map(|pixel| pixel[0]);
+            let most = values("R").iter().fold(0.0_f32, |most, &value| most.max(value));
+            assert_eq!(most, if exact { largest } else { 65_504.0 });
+            assert_eq!(red().eq(values("R").iter().copied()), exact, "{largest}");
+            // The others fit.
+            for (name, numbers) in [("G", 1), ("alpha.Y", 3)] {
+                let exact: Vec<f32> = match numbers {
+                    3 => picture.alpha.pixels().to_vec(),
+                    k => picture.composite.pixels().iter().map(|pixel| pixel[k]).collect(),
+                };
+                assert!(*values(name) != exact && values(name).iter().all(|value| value.is_finite()), "{name}");
+            }
+        }
     }
 }

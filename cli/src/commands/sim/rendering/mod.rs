@@ -126,11 +126,6 @@ impl RenderSpec {
             width,
             height,
             shadow_resolution: table.small("shadow_resolution", default.shadow_resolution, 1)?,
-            solid_shadow_resolution: table.small(
-                "solid_shadow_resolution",
-                default.solid_shadow_resolution,
-                1,
-            )?,
             optical_step: table.number("optical_step", default.optical_step, ANY)?,
             dark: table.number("dark", default.dark, ANY)?,
             age_blur: table.optional_table("age_blur", read_age_blur)?,
