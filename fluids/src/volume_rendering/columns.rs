@@ -95,6 +95,22 @@ impl Columns {
         Self { prisms, grid, starts, entries }
     }
 
+    /// Whether columns of a voxel's width would have no more than so many entries, by the boxes around the
+    /// triangles.
+    pub(super) fn entries_at_most(corners: &[[DVec3; 3]], [nx, ny]: [usize; 2], most: usize) -> bool {
+        let grid = Grid { size: [nx.max(1), ny.max(1)], width: 1.0 };
+        let mut sum = 0;
+        corners.iter().all(|[a, b, c]| {
+            let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
+            let across = |axis: usize| {
+                let columns = grid.between(axis, low[axis], high[axis]);
+                columns.end() + 1 - columns.start()
+            };
+            sum += across(0) * across(1);
+            sum <= most
+        })
+    }
+
     pub(super) fn prism(&self, index: u32) -> &Prism {
         &self.prisms[index as usize]
     }
@@ -111,15 +127,19 @@ impl Columns {
         &self.entries[self.starts[column] as usize..self.starts[column + 1] as usize]
     }
 
-    /// The triangles of all columns that the box around a way may pass, ascending.
+    /// Finds the triangles of all columns that the box around a way may pass, ascending; false if one of the
+    /// columns has more than `most`.
     #[inline]
-    pub(super) fn along(&self, from: DVec3, to: DVec3, found: &mut Vec<u32>) {
+    pub(super) fn along(&self, from: DVec3, to: DVec3, most: usize, found: &mut Vec<u32>) -> bool {
         found.clear();
         let (low, high) = (from.min(to), from.max(to));
         let mut several = false;
         for j in self.grid.between(1, low.y, high.y) {
             for i in self.grid.between(0, low.x, high.x) {
                 let column = self.column(i, j);
+                if column.len() > most {
+                    return false;
+                }
                 several |= !found.is_empty() && !column.is_empty();
                 found.extend_from_slice(column);
             }
@@ -128,6 +148,7 @@ impl Columns {
             found.sort_unstable();
             found.dedup();
         }
+        true
     }
 }
 
@@ -174,7 +195,7 @@ mod tests {
         let (mut found, mut met) = (Vec::new(), 0);
         for way in triangles(400, 1.5) {
             let (from, to) = (way[0], way[1]);
-            columns.along(from, to, &mut found);
+            assert!(columns.along(from, to, usize::MAX, &mut found));
             assert!(found.is_sorted_by(|a, b| a < b));
             for (index, corners) in (0_u32..).zip(&corners) {
                 let prism = Prism::new(corners).expect("no triangle stands upright by chance");

@@ -33,6 +33,8 @@ const BESIDE: f64 = 1.0 / (1_u64 << 30) as f64;
 pub(super) struct LightPaths {
     columns: Columns,
     rule: InteriorRule,
+    /// Most triangles of a column for a mean.
+    most: usize,
     /// Optical depth of a voxel full of smoke.
     optical_depth: f64,
 }
@@ -51,9 +53,19 @@ pub(super) struct Before {
 #[derive(Clone, Copy, Debug)]
 struct Span {
     part: [f64; 2],
-    /// How far behind the triangle both ends of the whole way are.
+    /// How far behind the triangle both ends of the part are.
     depths: [f64; 2],
     sign: i32,
+}
+
+impl Span {
+    /// How far behind the triangle a place of the part is.
+    #[inline]
+    fn depth(&self, at: f64) -> f64 {
+        let [start, end] = self.part;
+        let part = (at - start) / (end - start);
+        self.depths[0] + part * (self.depths[1] - self.depths[0])
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -68,9 +80,10 @@ impl LightPaths {
         corners: &[[DVec3; 3]],
         across: [usize; 2],
         rule: InteriorRule,
+        most: usize,
         optical_depth: f64,
     ) -> Self {
-        Self { columns: Columns::new(corners, across), rule, optical_depth }
+        Self { columns: Columns::new(corners, across), rule, most, optical_depth }
     }
 
     /// The share of the light that arrives at a point, if the surface balances along the light there: up to
@@ -98,31 +111,27 @@ impl LightPaths {
         (balance == 0).then_some(length)
     }
 
-    /// Finds the triangles that may lie along the light of a way; how many there are.
-    #[inline]
-    pub(super) fn find(&self, from: DVec3, to: DVec3, before: &mut Before) -> usize {
-        self.columns.along(from, to, &mut before.found);
-        before.found.len()
-    }
-
-    /// The mean share of the light on a way inside the smoke for which [`LightPaths::find`] was called, by
-    /// the weight of what is seen of it through its own optical depth; only the light on the given parts of
-    /// the way is counted.
+    /// The mean share of the light on a way inside the smoke, by the weight of what is seen of it through its
+    /// own optical depth; only the light on the given parts of the way is counted. None if a column
+    /// that the way passes has too many triangles.
     pub(super) fn mean(
         &self,
         [from, to]: [DVec3; 2],
         optical_depth: f64,
         lit: &[[f64; 2]],
         before: &mut Before,
-    ) -> f64 {
+    ) -> Option<f64> {
+        if !self.columns.along(from, to, self.most, &mut before.found) {
+            return None;
+        }
         before.spans.clear();
         before.ends.clear();
         for &index in &before.found {
             let prism = self.columns.prism(index);
             let Some(part) = prism.below(from, to) else { continue };
-            let depths = [prism.depth(from), prism.depth(to)];
-            let middle = 0.5 * (part[0] + part[1]);
-            if mix(depths, middle) > 0.0 {
+            // At the ends of the part, where the triangle is, so that its plane is not followed beyond it.
+            let depths = part.map(|at| prism.depth(from + at * (to - from)));
+            if depths[0] + depths[1] > 0.0 {
                 before.spans.push(Span { part, depths, sign: prism.sign });
                 before.ends.extend(part);
             }
@@ -147,7 +156,7 @@ impl LightPaths {
             start = end;
         }
         let whole = -libm::expm1(-optical_depth);
-        if whole > 0.0 { sum / whole } else { 0.0 }
+        Some(if whole > 0.0 { sum / whole } else { 0.0 })
     }
 }
 
@@ -157,10 +166,8 @@ impl Before {
         let middle = 0.5 * (piece[0] + piece[1]);
         self.layers.clear();
         let over = self.spans.iter().filter(|span| span.part[0] <= middle && middle <= span.part[1]);
-        self.layers.extend(over.map(|span| Layer {
-            depths: piece.map(|at| mix(span.depths, at)),
-            sign: span.sign,
-        }));
+        self.layers
+            .extend(over.map(|span| Layer { depths: piece.map(|at| span.depth(at)), sign: span.sign }));
     }
 
     /// Length of smoke, times density, before both ends of a piece.
@@ -180,11 +187,6 @@ impl Before {
         // Depths are no longer in order where triangles intersect within the piece.
         lengths.map(|length| length.max(0.0))
     }
-}
-
-#[inline]
-fn mix([a, b]: [f64; 2], part: f64) -> f64 {
-    a + part * (b - a)
 }
 
 /// The integral of `exp(-t u) exp(-(what the light has passed)) t du` over a piece of a way, the latter linear

@@ -62,7 +62,7 @@ impl Occluders {
     /// Which parts of the way between two points, in lattice coordinates, no solid keeps from the light.
     #[inline]
     pub(super) fn lit(&self, from: DVec3, to: DVec3, spans: &mut Spans) -> Lit {
-        self.columns.along(from, to, &mut spans.found);
+        self.columns.along(from, to, usize::MAX, &mut spans.found);
         spans.dark.clear();
         for &index in &spans.found {
             match self.columns.prism(index).behind(from, to) {
@@ -159,7 +159,8 @@ mod tests {
 
     #[test]
     fn shadows_are_joined_and_the_rest_is_lit() {
-        let mut spans = Spans { dark: vec![[0.5, 0.6], [0.1, 0.3], [0.2, 0.4], [0.4 + 1e-12, 0.45]], ..Spans::default() };
+        let mut spans =
+            Spans { dark: vec![[0.5, 0.6], [0.1, 0.3], [0.2, 0.4], [0.4 + 1e-12, 0.45]], ..Spans::default() };
         assert_eq!(spans.remainder(), Lit::Parts);
         assert_eq!(spans.lit, [[0.0, 0.1], [0.45, 0.5], [0.6, 1.0]]);
         spans.dark = vec![[0.3, 1.0], [0.0, 0.3 - 1e-15]];

@@ -8,7 +8,6 @@ use welter_meshing::surface::{ClosedOrientedMesh, TriId};
 
 use super::camera::View;
 use super::light_space::Lattice;
-use super::occluders::Occluders;
 use super::pixels::{Planes, Studio};
 use super::scattering::Sampling;
 use super::shadow::Shadow;
@@ -59,7 +58,7 @@ pub struct RenderReport {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct RenderSeconds {
-    /// Shadow texture, and the map of shadows of solids.
+    /// Shadow texture, and the columns of triangles that cast shadows.
     pub shadow: f64,
     /// Triangles into the image.
     pub projection: f64,
@@ -210,6 +209,6 @@ fn shadow(
         (0..count).map(|t| mesh.corners(TriId::from_index(t)).map(|p| p * scale)).collect::<Vec<_>>()
     };
     let solids: Vec<[DVec3; 3]> = scene.solids.iter().flat_map(|solid| triangles(solid.mesh)).collect();
-    let occluders = Occluders::new(&lattice, &solids);
-    Ok(Shadow::new(lattice, &corners, occluders, extinction, scene.medium.interior))
+    let (rule, traced) = (scene.medium.interior, parameters.traced_triangles as usize);
+    Ok(Shadow::new(lattice, &corners, &solids, extinction, rule, traced))
 }

@@ -143,7 +143,8 @@ impl Studio<'_> {
                 let along = self.view.ray(x, y);
                 let ray = self.view.turned_back(along);
                 let at = (y as usize - band.first) * self.view.width as usize + x as usize;
-                let surface = self.solids.shade(surfaces, pixel, self.view.eye, ray, &self.shadow, &mut scratch);
+                let surface =
+                    self.solids.shade(surfaces, pixel, self.view.eye, ray, &self.shadow, &mut scratch);
                 if let Some(color) = surface {
                     band.backdrop[at] = color;
                 }

@@ -127,8 +127,7 @@ mod tests {
     use super::*;
 
     fn prism() -> Prism {
-        let [a, b, c] =
-            [DVec3::new(1.0, 1.0, 2.0), DVec3::new(5.0, 1.0, 2.0), DVec3::new(1.0, 5.0, 4.0)];
+        let [a, b, c] = [DVec3::new(1.0, 1.0, 2.0), DVec3::new(5.0, 1.0, 2.0), DVec3::new(1.0, 5.0, 4.0)];
         Prism::new(&[a, b, c]).expect("it faces the light")
     }
 

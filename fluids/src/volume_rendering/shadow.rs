@@ -1,30 +1,40 @@
-//! How much of the light arrives: the shadow texture of the smoke, and the map of shadows of solids.
+//! How much of the light arrives: the shadow texture of the smoke, and where it does not do, the smoke's
+//! surface itself; shadows of solids.
 //!
 //! # What it computes
 //! The texture holds, at the face of each voxel that the light leaves by and at those it first enters by, the
 //! length of smoke that the light has passed, as the mean over the face. It is linear between the two faces
 //! of a voxel, which is right for a voxel of one density, and linear between the middles of columns. The
-//! share of the light that arrives is `exp(-extinction length)`. Solids are drawn into a depth map along the
-//! light; a point beyond its solid is dark.
+//! share of the light that arrives is `exp(-extinction length)`.
+//!
+//! The length at a face is a mean over the face, which where the surface is oblique to the light, or ends,
+//! mixes points before and behind it. There lengths bend from node to node, and from that it follows by how
+//! much the texture may be off. Where that is more than [`ROUGH`] of the light, nodes are marked, and light
+//! is traced through the triangles of the surface ([`LightPaths`]), unless a column has more of them than
+//! asked for. Parts that solids keep from the light are cut out of each step ([`Occluders`]).
 //!
 //! # What it does not promise
-//! An exact shadow: the length at a face is a mean over the face, which where the surface is oblique to the
-//! light or where light grazes it mixes points before and behind the surface. The root mean square error of
-//! the scatter of a ball falls with the power 1 to 1.5 of the voxel's side; a sheet has to be some voxels
-//! thick, one of two voxels is off by several percent (`tests/fluids/volume_rendering/twin.rs`). Edges of
-//! shadows of solids are as wide as a texel.
+//! An exact shadow: where the texture is not marked, the sum of its errors along a ray is not bounded by
+//! more than [`ROUGH`] of the smoke that is seen; where columns are crowded, the root mean square error of
+//! the scatter of a ball falls with the power 1 to 1.5 of the voxel's side, and a sheet as thin as two voxels
+//! is off by several percent. Figures are in `docs/accuracy.md`.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::columns::Columns;
 use super::exponential::{exp_of_minus, exps_of_minus};
-use super::light_space::Lattice;
 use super::light_paths::{Before, LightPaths};
+use super::light_space::Lattice;
 use super::occluders::{Lit, Occluders, Spans};
 use super::{InteriorRule, voxels};
 
 /// Points of which the light is looked up together, so that the arithmetic is that of vectors.
 pub(super) const LANES: usize = 8;
+
+/// The texture is rough where its bends tell that it may be off by more than this share of the light. Chosen
+/// by trial: with half of it errors in the tests are hardly less, with twice of it those of a torus double.
+const ROUGH: f32 = 1.0 / 32.0;
 
 /// Lengths of smoke along the light, and solids before it.
 #[derive(Debug)]
@@ -46,13 +56,16 @@ pub(super) struct Scratch {
 }
 
 impl Shadow {
-    /// The texture of smoke with a surface and an extinction, in scaled coordinates.
+    /// The shadow of smoke with a surface and an extinction, and of the triangles of solids, in scaled
+    /// coordinates. Light is traced where the texture is rough, unless a column has more than `traced`
+    /// triangles, or columns have more in the mean.
     pub(super) fn new(
         lattice: Lattice,
         corners: &[[DVec3; 3]],
-        occluders: Option<Occluders>,
+        solids: &[[DVec3; 3]],
         extinction: f64,
         rule: InteriorRule,
+        traced: usize,
     ) -> Self {
         let placed: Vec<[DVec3; 3]> = if lattice.is_empty() {
             Vec::new()
@@ -61,21 +74,23 @@ impl Shadow {
         };
         let volumes = voxels::volumes(&placed, lattice.size);
         let mut shadow = Self::of_volumes(lattice, &volumes, extinction, rule);
-        shadow.occluders = occluders;
+        if placed.is_empty() {
+            return shadow;
+        }
         let [nx, ny, _] = shadow.lattice.size;
-        if std::env::var("WP").is_ok() && !placed.is_empty() {
-            shadow.paths = Some(LightPaths::new(&placed, [nx, ny], rule, f64::from(shadow.optical_depth)));
+        shadow.occluders = Occluders::new(&shadow.lattice, solids);
+        let rough = Columns::entries_at_most(&placed, [nx, ny], traced.saturating_mul(nx * ny))
+            && shadow.texture.mark_rough(shadow.optical_depth);
+        // What is seen of solids is a point for each pixel, whose light is always traced.
+        if rough || !solids.is_empty() {
+            let optical_depth = f64::from(shadow.optical_depth);
+            shadow.paths = Some(LightPaths::new(&placed, [nx, ny], rule, traced, optical_depth));
         }
         shadow
     }
 
     /// The texture of smoke of which the volume in each voxel is known, in voxels.
-    pub(super) fn of_volumes(
-        lattice: Lattice,
-        volumes: &[f64],
-        extinction: f64,
-        rule: InteriorRule,
-    ) -> Self {
+    pub(super) fn of_volumes(lattice: Lattice, volumes: &[f64], extinction: f64, rule: InteriorRule) -> Self {
         let texture = Texture::new(volumes, lattice.size, rule);
         let optical_depth = (extinction * lattice.spacing).min(f64::from(f32::MAX)) as f32;
         Self { lattice, texture, occluders: None, paths: None, optical_depth }
@@ -87,32 +102,34 @@ impl Shadow {
 
     /// The share of the light that the smoke lets through to points in it, in lattice coordinates (all first
     /// ones, then all second ones, ...).
+    /// Beside them, whether the texture is rough there.
     #[inline]
-    pub(super) fn transmittances<const N: usize>(&self, at: &[[f32; N]; 3]) -> [f32; N] {
+    pub(super) fn transmittances<const N: usize>(&self, at: &[[f32; N]; 3]) -> ([f32; N], [bool; N]) {
         if self.texture.lengths.is_empty() {
             // Smoke so small that its voxels would have no side shadows nothing.
-            return [1.0; N];
+            return ([1.0; N], [false; N]);
         }
-        let mut depths = self.texture.lengths(at);
+        let (mut depths, rough) = self.texture.look_up(at);
         for depth in &mut depths {
             *depth *= self.optical_depth;
         }
-        exps_of_minus(&depths)
+        (exps_of_minus(&depths), rough)
     }
 
-    /// Whether the light is that of the smoke's texture everywhere.
+    /// Whether a solid may keep light from the smoke.
     #[inline]
-    pub(super) fn is_smooth(&self) -> bool {
-        self.occluders.is_none() && self.paths.is_none()
+    pub(super) fn has_solids(&self) -> bool {
+        self.occluders.is_some()
     }
 
     /// The mean share of the light on a short way inside the smoke, in lattice coordinates, by the weight of
-    /// what is seen of it through its own optical depth, if `light` is that of the texture at the mean place.
+    /// what is seen of it through its own optical depth, if `light` is that of the texture at the mean place;
+    /// with care, it is traced.
     pub(super) fn mean(
         &self,
         [from, to]: [DVec3; 2],
         optical_depth: f64,
-        light: f32,
+        (light, careful): (f32, bool),
         scratch: &mut Scratch,
     ) -> f32 {
         let lit = match &self.occluders {
@@ -124,9 +141,9 @@ impl Shadow {
             Lit::All => &[[0.0, 1.0]],
             Lit::Parts => &scratch.spans.lit,
         };
-        if let Some(paths) = &self.paths {
-            if paths.find(from, to, &mut scratch.before) <= most() {
-                return paths.mean([from, to], optical_depth, parts, &mut scratch.before) as f32;
+        if let Some(paths) = self.paths.as_ref().filter(|_| careful) {
+            if let Some(light) = paths.mean([from, to], optical_depth, parts, &mut scratch.before) {
+                return light as f32;
             }
         }
         if lit == Lit::All {
@@ -135,7 +152,7 @@ impl Shadow {
         let of_part = |&[start, end]: &[f64; 2]| {
             let place = start + (end - start) * centre((end - start) * optical_depth);
             let at = (from + place * (to - from)).to_array().map(|c| [c as f32]);
-            let [light] = self.transmittances(&at);
+            let ([light], _) = self.transmittances(&at);
             weight([start, end], optical_depth) * f64::from(light)
         };
         parts.iter().map(of_part).sum::<f64>() as f32
@@ -153,15 +170,10 @@ impl Shadow {
         }
         let traced = self.paths.as_ref().and_then(|paths| paths.transmittance(p, &mut scratch.before));
         traced.unwrap_or_else(|| {
-            let [length] = self.texture.lengths(&[[p.x as f32], [p.y as f32], [p.z as f32]]);
+            let ([length], _) = self.texture.look_up(&[[p.x as f32], [p.y as f32], [p.z as f32]]);
             f64::from(exp_of_minus(self.optical_depth * length))
         })
     }
-}
-
-fn most() -> usize {
-    static M: std::sync::OnceLock<usize> = std::sync::OnceLock::new();
-    *M.get_or_init(|| std::env::var("WP").unwrap().parse().unwrap())
 }
 
 /// Where on a way through smoke of an optical depth the mean place of the light scattered to the eye is, in
@@ -183,7 +195,8 @@ fn weight([start, end]: [f64; 2], t: f64) -> f64 {
 /// that no coordinate needs a case of its own.
 #[derive(Debug)]
 struct Texture {
-    /// Faces of a column along the light together, then columns along the first axis.
+    /// Faces of a column along the light together, then columns along the first axis. The last bit of a number
+    /// is 1 where the texture is rough.
     lengths: Vec<f32>,
     size: [usize; 3],
 }
@@ -204,17 +217,65 @@ impl Texture {
                 let mut passed = 0.0;
                 for (length, &volume) in lengths[1..].iter_mut().zip(volumes) {
                     passed += rule.density(volume);
-                    *length = passed as f32;
+                    *length = unmarked(passed as f32);
                 }
-                lengths[nz + 1] = passed as f32;
+                lengths[nz + 1] = unmarked(passed as f32);
             }
         });
         Self { lengths, size }
     }
 
-    /// Voxels of smoke before points, in lattice coordinates; those outside are moved to the border.
+    /// Marks where the texture is rough for voxels of an optical depth: in the last bits of the lengths, which
+    /// their value does not notice. Whether it is anywhere.
+    ///
+    /// Where the surface is a plane that is oblique to the light, the second difference of lengths across it
+    /// comes to up to the slope, in voxels, and the mean over a face and between columns is off by a quarter
+    /// of that; where the surface ends, by up to half. Along the light, a length is linear within a voxel that
+    /// is filled in part, which is off by a quarter of the second difference at most.
+    fn mark_rough(&mut self, optical_depth: f32) -> bool {
+        let [nx, ny, nz] = self.size;
+        let faces = nz + 2;
+        let column = |i: usize, j: usize| &self.lengths[((j + 1) * (nx + 2) + i + 1) * faces..][..faces];
+        let nothing = vec![0.0; faces];
+        let mut marks = vec![0_u32; nx * ny * faces];
+        marks.par_chunks_mut(nx * faces).enumerate().for_each(|(j, marks)| {
+            for (i, marks) in marks.chunks_mut(faces).enumerate() {
+                let of = column(i, j);
+                let beside = [
+                    if i > 0 { column(i - 1, j) } else { &nothing },
+                    if i + 1 < nx { column(i + 1, j) } else { &nothing },
+                    if j > 0 { column(i, j - 1) } else { &nothing },
+                    if j + 1 < ny { column(i, j + 1) } else { &nothing },
+                ];
+                for (k, mark) in marks.iter_mut().enumerate() {
+                    let bend = |p: f32, q: f32| (p - 2.0 * of[k] + q).abs();
+                    let across = bend(beside[0][k], beside[1][k]) + bend(beside[2][k], beside[3][k]);
+                    let along = bend(if k > 0 { of[k - 1] } else { 0.0 }, of[(k + 1).min(faces - 1)]);
+                    let error = optical_depth * (0.5 * across + 0.25 * along);
+                    if error > ROUGH {
+                        let least = optical_depth * (of[k] - across).max(0.0);
+                        *mark = u32::from(exp_of_minus(least) * (1.0 - exp_of_minus(error)) > ROUGH);
+                    }
+                }
+            }
+        });
+        let any = marks.par_iter().any(|&mark| mark != 0);
+        self.lengths.par_chunks_mut((nx + 2) * faces).enumerate().for_each(|(row, lengths)| {
+            let j = row.clamp(1, ny) - 1;
+            for (column, lengths) in lengths.chunks_mut(faces).enumerate() {
+                let i = column.clamp(1, nx) - 1;
+                for (length, mark) in lengths.iter_mut().zip(&marks[(j * nx + i) * faces..]) {
+                    *length = f32::from_bits(length.to_bits() | mark);
+                }
+            }
+        });
+        any
+    }
+
+    /// Voxels of smoke before points, in lattice coordinates; those outside are moved to the border. Beside
+    /// them, whether a node next to the point is marked.
     #[inline]
-    fn lengths<const N: usize>(&self, at: &[[f32; N]; 3]) -> [f32; N] {
+    fn look_up<const N: usize>(&self, at: &[[f32; N]; 3]) -> ([f32; N], [bool; N]) {
         let [nx, ny, nz] = self.size.map(|n| n as f32);
         let (row, faces) = ((self.size[0] + 2) as u32, (self.size[2] + 2) as u32);
         let (i, u) = nodes(&at[0], 0.5, nx);
@@ -233,15 +294,22 @@ impl Texture {
                 (corners[2 * column][lane], corners[2 * column + 1][lane]) = (pair[0], pair[1]);
             }
         }
-        let mut lengths = [0.0; N];
+        let (mut lengths, mut rough) = ([0.0; N], [false; N]);
         for lane in 0..N {
             let along =
                 |column: usize| mix(corners[2 * column][lane], corners[2 * column + 1][lane], w[lane]);
             let (upper, lower) = (mix(along(0), along(1), u[lane]), mix(along(2), along(3), u[lane]));
             lengths[lane] = mix(upper, lower, v[lane]);
+            rough[lane] = corners.iter().fold(0, |marks, corner| marks | corner[lane].to_bits()) & 1 == 1;
         }
-        lengths
+        (lengths, rough)
     }
+}
+
+/// A length with a clear last bit.
+#[inline]
+fn unmarked(length: f32) -> f32 {
+    f32::from_bits(length.to_bits() & !1)
 }
 
 #[inline]
@@ -296,7 +364,7 @@ mod tests {
             ([1.0, 0.5, 1.0], 0.5),
             ([1.9, 0.5, 2.0], 0.0),
         ] {
-            assert_eq!(shadow.texture.lengths(&at.map(|c: f32| [c])), [length], "{at:?}");
+            assert_eq!(shadow.texture.look_up(&at.map(|c: f32| [c])), ([length], [false]), "{at:?}");
         }
     }
 

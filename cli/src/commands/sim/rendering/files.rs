@@ -309,7 +309,10 @@ mod tests {
                     3 => picture.alpha.pixels().to_vec(),
                     k => picture.composite.pixels().iter().map(|pixel| pixel[k]).collect(),
                 };
-                assert!(*values(name) != exact && values(name).iter().all(|value| value.is_finite()), "{name}");
+                assert!(
+                    *values(name) != exact && values(name).iter().all(|value| value.is_finite()),
+                    "{name}"
+                );
             }
         }
     }

@@ -126,6 +126,7 @@ impl RenderSpec {
             width,
             height,
             shadow_resolution: table.small("shadow_resolution", default.shadow_resolution, 1)?,
+            traced_triangles: table.small("traced_triangles", default.traced_triangles, 0)?,
             optical_step: table.number("optical_step", default.optical_step, ANY)?,
             dark: table.number("dark", default.dark, ANY)?,
             age_blur: table.optional_table("age_blur", read_age_blur)?,
