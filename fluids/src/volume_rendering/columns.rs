@@ -34,25 +34,53 @@ pub(super) struct Columns {
 
 /// Columns across the light.
 #[derive(Clone, Copy, Debug)]
-struct Grid {
+pub(super) struct Grid {
     size: [usize; 2],
     /// In voxels.
     width: f64,
 }
 
 impl Grid {
+    /// How many columns there are.
+    pub(super) fn count(&self) -> usize {
+        self.size[0] * self.size[1]
+    }
+
+    /// The middle of a column.
+    pub(super) fn middle(&self, column: usize) -> DVec3 {
+        let at = |index: usize| (index as f64 + 0.5) * self.width;
+        DVec3::new(at(column % self.size[0]), at(column / self.size[0]), 0.0)
+    }
+
+    /// Calls `visit` with each column of a box; a box outside is moved to the border.
+    #[inline]
+    pub(super) fn between(&self, low: DVec3, high: DVec3, mut visit: impl FnMut(usize)) {
+        for j in self.span(1, low.y, high.y) {
+            for i in self.span(0, low.x, high.x) {
+                visit(j * self.size[0] + i);
+            }
+        }
+    }
+
+    /// Calls `visit` with the borders of each row of columns between two coordinates.
+    pub(super) fn rows(&self, low: f64, high: f64, mut visit: impl FnMut([f64; 2])) {
+        for j in self.span(1, low, high) {
+            visit([j, j + 1].map(|j| j as f64 * self.width));
+        }
+    }
+
     /// Which columns along an axis lie between two coordinates; those outside are moved to the border.
     #[inline]
-    fn between(&self, axis: usize, low: f64, high: f64) -> RangeInclusive<usize> {
+    fn span(&self, axis: usize, low: f64, high: f64) -> RangeInclusive<usize> {
         // The casts saturate, and what is no number is 0.
         let at = |v: f64| ((v / self.width) as usize).min(self.size[axis] - 1);
         at(low)..=at(high)
     }
 
     /// Calls `visit` with each column that a prism, of a triangle with given bounds, may meet.
-    fn meeting(&self, prism: &Prism, [low, high]: &[DVec3; 2], mut visit: impl FnMut(usize)) {
-        for j in self.between(1, low.y, high.y) {
-            for i in self.between(0, low.x, high.x) {
+    pub(super) fn meeting(&self, prism: &Prism, [low, high]: &[DVec3; 2], mut visit: impl FnMut(usize)) {
+        for j in self.span(1, low.y, high.y) {
+            for i in self.span(0, low.x, high.x) {
                 let corner = |i: usize, j: usize| [i as f64 * self.width, j as f64 * self.width];
                 if prism.may_meet(corner(i, j), corner(i + 1, j + 1)) {
                     visit(j * self.size[0] + i);
@@ -71,7 +99,7 @@ impl Columns {
         };
         let found: Vec<(Prism, [DVec3; 2])> =
             corners.par_iter().with_min_len(4096).filter_map(prism).collect();
-        let most = ENTRIES * found.len() + MORE_ENTRIES;
+        let most = (ENTRIES * found.len() + MORE_ENTRIES).min(u32::MAX as usize);
         let mut grid = Grid { size: [nx.max(1), ny.max(1)], width: 1.0 };
         let mut counts = grid.counts(&found, most);
         while counts.is_none() {
@@ -103,12 +131,16 @@ impl Columns {
         corners.iter().all(|[a, b, c]| {
             let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
             let across = |axis: usize| {
-                let columns = grid.between(axis, low[axis], high[axis]);
+                let columns = grid.span(axis, low[axis], high[axis]);
                 columns.end() + 1 - columns.start()
             };
             sum += across(0) * across(1);
             sum <= most
         })
+    }
+
+    pub(super) fn grid(&self) -> &Grid {
+        &self.grid
     }
 
     pub(super) fn prism(&self, index: u32) -> &Prism {
@@ -118,7 +150,7 @@ impl Columns {
     /// The triangles of the column that holds a point, ascending; a point outside is moved to the border.
     #[inline]
     pub(super) fn at(&self, x: f64, y: f64) -> &[u32] {
-        let (i, j) = (*self.grid.between(0, x, x).start(), *self.grid.between(1, y, y).start());
+        let (i, j) = (*self.grid.span(0, x, x).start(), *self.grid.span(1, y, y).start());
         self.column(i, j)
     }
 
@@ -134,8 +166,8 @@ impl Columns {
         found.clear();
         let (low, high) = (from.min(to), from.max(to));
         let mut several = false;
-        for j in self.grid.between(1, low.y, high.y) {
-            for i in self.grid.between(0, low.x, high.x) {
+        for j in self.grid.span(1, low.y, high.y) {
+            for i in self.grid.span(0, low.x, high.x) {
                 let column = self.column(i, j);
                 if column.len() > most {
                     return false;
@@ -182,7 +214,7 @@ mod tests {
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
         let triangle = |_| {
-            let middle = 20.0 * DVec3::new(random(), random(), random());
+            let middle = 4.0 + 12.0 * DVec3::new(random(), random(), random());
             [0, 1, 2].map(|_| middle + spread * (DVec3::new(random(), random(), random()) - 0.5))
         };
         (0..count).map(triangle).collect()
@@ -191,7 +223,7 @@ mod tests {
     #[test]
     fn whatever_a_way_meets_is_found() {
         let corners = triangles(300, 6.0);
-        let columns = Columns::new(&corners, [20, 13]);
+        let columns = Columns::new(&corners, [20, 20]);
         let (mut found, mut met) = (Vec::new(), 0);
         for way in triangles(400, 1.5) {
             let (from, to) = (way[0], way[1]);

@@ -6,9 +6,9 @@
 //!
 //! # What it promises
 //! The surface is a polyhedron, so along a way the length of smoke before it is linear between the edges of
-//! the triangles that the light passes. These pieces are found and each is integrated in closed form: the
-//! mean is exact up to rounding, and up to where parts of the surface before the way intersect each other
-//! within a piece.
+//! the triangles that the light passes, and the places where these intersect each other. These pieces are
+//! found and each is integrated in closed form: the mean is exact up to rounding, unless more than
+//! [`MOST_SPLITS`] triangles that the light passes intersect each other before one piece.
 //!
 //! # What it does not promise
 //! Speed: time is that of all triangles in the columns that a way passes, wherever they lie along the light.
@@ -24,6 +24,9 @@ use super::columns::Columns;
 
 /// Pieces of a way shorter than this part of it are left out.
 const SLIVER: f64 = 1.0 / (1_u64 << 24) as f64;
+
+/// Most places where a piece is divided because triangles before it intersect.
+const MOST_SPLITS: usize = 64;
 
 /// How far a light ray that meets an edge is moved, in voxels.
 const BESIDE: f64 = 1.0 / (1_u64 << 30) as f64;
@@ -45,7 +48,8 @@ pub(super) struct Before {
     found: Vec<u32>,
     spans: Vec<Span>,
     ends: Vec<f64>,
-    /// Depths below the surface at both ends of a piece, and which way light goes there.
+    /// Pieces that are still to be integrated, the next one last.
+    pieces: Vec<[f64; 2]>,
     layers: Vec<Layer>,
 }
 
@@ -68,6 +72,7 @@ impl Span {
     }
 }
 
+/// A triangle before a piece: how far behind it both ends of the piece are.
 #[derive(Clone, Copy, Debug)]
 struct Layer {
     depths: [f64; 2],
@@ -148,15 +153,33 @@ impl LightPaths {
             for part in lit {
                 let piece = [part[0].max(start), part[1].min(end)];
                 if piece[0] < piece[1] {
-                    before.cover(piece);
-                    let lengths = before.lengths(self.rule);
-                    sum += integral(piece, optical_depth, lengths.map(|l| self.optical_depth * l));
+                    sum += self.piece(piece, optical_depth, before);
                 }
             }
             start = end;
         }
         let whole = -libm::expm1(-optical_depth);
         Some(if whole > 0.0 { sum / whole } else { 0.0 })
+    }
+
+    /// What is seen of a piece of a way between whose ends all triangles before it are the same.
+    fn piece(&self, piece: [f64; 2], optical_depth: f64, before: &mut Before) -> f64 {
+        let (mut sum, mut splits) = (0.0, 0);
+        before.pieces.clear();
+        before.pieces.push(piece);
+        while let Some(piece) = before.pieces.pop() {
+            before.cover(piece);
+            let lengths = before.lengths(self.rule);
+            let crossing = if splits < MOST_SPLITS { before.crossing() } else { None };
+            if let Some(part) = crossing {
+                splits += 1;
+                let at = piece[0] + part * (piece[1] - piece[0]);
+                before.pieces.extend([[at, piece[1]], [piece[0], at]]);
+            } else {
+                sum += integral(piece, optical_depth, lengths.map(|l| self.optical_depth * l));
+            }
+        }
+        sum
     }
 }
 
@@ -170,7 +193,17 @@ impl Before {
             .extend(over.map(|span| Layer { depths: piece.map(|at| span.depth(at)), sign: span.sign }));
     }
 
-    /// Length of smoke, times density, before both ends of a piece.
+    /// Where in the piece two layers, neighbours in the order of its middle, intersect.
+    fn crossing(&self) -> Option<f64> {
+        self.layers.windows(2).find_map(|pair| {
+            let [start, end] = [0, 1].map(|k| pair[0].depths[k] - pair[1].depths[k]);
+            let at = start / (start - end);
+            let inside = (start < 0.0) != (end < 0.0) && at > SLIVER && at < 1.0 - SLIVER;
+            inside.then_some(at)
+        })
+    }
+
+    /// Sorts the layers along the light. Length of smoke, times density, before both ends of a piece.
     fn lengths(&mut self, rule: InteriorRule) -> [f64; 2] {
         let middle = |layer: &Layer| layer.depths[0] + layer.depths[1];
         self.layers.sort_unstable_by(|a, b| middle(b).total_cmp(&middle(a)).then(b.sign.cmp(&a.sign)));
@@ -184,7 +217,7 @@ impl Before {
                 lengths[k] += density * (layer.depths[k] - next[k]);
             }
         }
-        // Depths are no longer in order where triangles intersect within the piece.
+        // Rounding, or triangles that still intersect, may put them out of order at an end.
         lengths.map(|length| length.max(0.0))
     }
 }
@@ -199,4 +232,99 @@ fn integral(piece: [f64; 2], t: f64, passed: [f64; 2]) -> f64 {
     // (1 - exp(-x)) / x
     let mean = if change > 0.0 { -libm::expm1(-change) / change } else { 1.0 };
     (whole[1] - whole[0]) * libm::exp(-most) * mean
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The faces of an octahedron, outward.
+    fn octahedron(center: DVec3, radius: f64) -> Vec<[DVec3; 3]> {
+        let face = |bits: u32| {
+            let sign = |axis: u32| if bits >> axis & 1 == 1 { -radius } else { radius };
+            let [x, y, z] = [sign(0) * DVec3::X, sign(1) * DVec3::Y, sign(2) * DVec3::Z];
+            let corners = if bits.count_ones() % 2 == 0 { [x, y, z] } else { [y, x, z] };
+            corners.map(|corner| center + corner)
+        };
+        (0..8).map(face).collect()
+    }
+
+    /// Two that overlap, one of them partly inside out, over a large one.
+    fn pile() -> Vec<[DVec3; 3]> {
+        let mut all = octahedron(DVec3::new(10.0, 10.0, 12.0), 9.0);
+        all.extend(octahedron(DVec3::new(8.6, 10.2, 4.0), 3.1));
+        all.extend(octahedron(DVec3::new(10.9, 9.5, 3.2), 2.7).iter().map(|&[a, b, c]| [a, c, b]));
+        all
+    }
+
+    fn paths(rule: InteriorRule) -> LightPaths {
+        LightPaths::new(&pile(), [20, 20], rule, usize::MAX, 0.3)
+    }
+
+    const RULES: [InteriorRule; 4] =
+        [InteriorRule::NonZero, InteriorRule::Positive, InteriorRule::Odd, InteriorRule::Multiplicity];
+
+    #[test]
+    fn the_light_at_a_point_has_passed_what_lies_before_it() {
+        let mut before = Before::default();
+        // Along the axis of the large one, and its edge-on corners and edges, from 3 to 21.
+        let large = LightPaths::new(&pile()[..8], [20, 20], InteriorRule::NonZero, usize::MAX, 0.3);
+        for (x, y, z, length) in [
+            (10.0, 10.0, 12.0, 9.0),
+            (10.0, 10.0, 25.0, 18.0),
+            (12.0, 10.0, 12.0, 7.0),
+            (12.0, 13.0, 30.0, 8.0),
+        ] {
+            let light = large.transmittance(DVec3::new(x, y, z), &mut before).expect("in balance");
+            assert!((light - libm::exp(-0.3 * length)).abs() < 1e-9, "{x} {y} {z}: {light}");
+        }
+        assert_eq!(large.transmittance(DVec3::new(10.0, 10.0, 2.0), &mut before), Some(1.0));
+        // There the small ones go from 2.5 to 5.5 and, inside out, from 1.9 to 4.5; so it winds -1, 0, 1, 2 and
+        // 1 times between 1.9, 2.5, 3, 4.5, 5.5 and the point.
+        for (rule, length) in RULES.into_iter().zip([4.1, 3.5, 3.1, 5.1]) {
+            let light = paths(rule).transmittance(DVec3::new(10.0, 10.0, 6.5), &mut before);
+            let light = light.expect("in balance");
+            assert!((light - libm::exp(-0.3 * length)).abs() < 1e-8, "{rule:?}: {light}");
+        }
+    }
+
+    #[test]
+    fn the_mean_is_that_of_many_points() {
+        let mut state = 9_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let (mut before, mut varied) = (Before::default(), 0);
+        for round in 0..40 {
+            let paths = paths(RULES[round % 4]);
+            let mut point = || DVec3::new(10.0 + 7.0 * random(), 10.0 + 7.0 * random(), 12.0 + random());
+            let (from, to, t) = (point(), point(), 0.7);
+            let parts = if round % 3 == 0 { vec![[0.1, 0.4], [0.75, 1.0]] } else { vec![[0.0, 1.0]] };
+            let mean = paths.mean([from, to], t, &parts, &mut before).expect("there is no limit");
+            let count = 20_000;
+            let (mut sum, mut whole, mut least, mut most) = (0.0, 0.0, 1.0_f64, 0.0_f64);
+            for k in 0..count {
+                let at = (f64::from(k) + 0.5) / f64::from(count);
+                let weight = libm::exp(-t * at);
+                whole += weight;
+                if parts.iter().any(|part| part[0] <= at && at <= part[1]) {
+                    let light = paths.transmittance(from + at * (to - from), &mut before);
+                    let light = light.expect("in balance");
+                    (least, most) = (least.min(light), most.max(light));
+                    sum += weight * light;
+                }
+            }
+            assert!((mean - sum / whole).abs() < 2e-5, "{round}: {mean} {}", sum / whole);
+            varied += usize::from(most > 1.5 * least);
+        }
+        assert!(varied > 20, "{varied}");
+    }
+
+    #[test]
+    fn crowded_columns_have_no_mean() {
+        let crowded = LightPaths::new(&pile(), [20, 20], InteriorRule::NonZero, 3, 0.3);
+        let (from, to) = (DVec3::new(10.0, 10.0, 12.0), DVec3::new(10.5, 10.0, 12.0));
+        assert_eq!(crowded.mean([from, to], 0.1, &[[0.0, 1.0]], &mut Before::default()), None);
+    }
 }

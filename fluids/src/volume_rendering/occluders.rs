@@ -7,7 +7,8 @@
 //!
 //! # Method
 //! What a triangle keeps from the light is a prism without end; a way is inside for an interval. The union
-//! of the intervals is taken by one pass over them in the order of their starts. Triangles are cut to what
+//! of the intervals is taken by one pass over them in the order of their starts. Ways that are lit or dark as
+//! a whole column is are told by [`Cover`] before. Triangles are cut to what
 //! lies over the lattice and before its end, and what lies before its start is laid onto that.
 
 use glam::DVec3;
@@ -15,6 +16,7 @@ use rayon::prelude::*;
 
 use super::clip::{Corner, Polygon};
 use super::columns::Columns;
+use super::cover::Cover;
 use super::light_space::Lattice;
 
 /// Gaps between shadows shorter than this part of a way are closed.
@@ -24,6 +26,7 @@ const SLIVER: f64 = 1.0 / (1_u64 << 24) as f64;
 #[derive(Debug)]
 pub(super) struct Occluders {
     columns: Columns,
+    cover: Cover,
 }
 
 /// Memory for [`Occluders::lit`].
@@ -50,18 +53,38 @@ impl Occluders {
         if lattice.is_empty() || triangles.is_empty() {
             return None;
         }
-        let parts: Vec<[DVec3; 3]> = triangles
+        let [nx, ny, nz] = lattice.size;
+        let place = |triangle: &[DVec3; 3]| triangle.map(|p| lattice.place(p));
+        let placed: Vec<[DVec3; 3]> = triangles.par_iter().with_min_len(1024).map(place).collect();
+        let parts: Vec<[DVec3; 3]> = placed
             .par_iter()
             .with_min_len(1024)
-            .flat_map_iter(|triangle| parts(lattice, &triangle.map(|p| lattice.place(p))))
+            .flat_map_iter(|triangle| parts([nx, ny, nz], triangle))
             .collect();
-        let [nx, ny, _] = lattice.size;
-        (!parts.is_empty()).then(|| Self { columns: Columns::new(&parts, [nx, ny]) })
+        if parts.is_empty() {
+            return None;
+        }
+        let columns = Columns::new(&parts, [nx, ny]);
+        let cover = Cover::new(&columns, &placed, [nx, ny]);
+        Some(Self { columns, cover })
     }
 
     /// Which parts of the way between two points, in lattice coordinates, no solid keeps from the light.
     #[inline]
     pub(super) fn lit(&self, from: DVec3, to: DVec3, spans: &mut Spans) -> Lit {
+        match self.cover.lit(from, to) {
+            Lit::Parts => self.lit_by_triangles(from, to, spans),
+            whole => whole,
+        }
+    }
+
+    #[cfg(test)]
+    pub(super) fn cover(&self) -> &Cover {
+        &self.cover
+    }
+
+    /// The same, from the triangles.
+    pub(super) fn lit_by_triangles(&self, from: DVec3, to: DVec3, spans: &mut Spans) -> Lit {
         self.columns.along(from, to, usize::MAX, &mut spans.found);
         spans.dark.clear();
         for &index in &spans.found {
@@ -96,28 +119,33 @@ impl Spans {
 
 /// The parts of a triangle in lattice coordinates that lie over the lattice and before its end; what lies
 /// before its start is moved onto that.
-fn parts(lattice: &Lattice, triangle: &[DVec3; 3]) -> Vec<[DVec3; 3]> {
-    let [nx, ny, nz] = lattice.size.map(|n| n as f64);
-    let mut over = Polygon::triangle(triangle.map(|point| Corner { point, value: 0.0 }));
-    let mut spare = over;
-    // A voxel of margin, so that rounding does not uncover the border.
-    for (axis, end) in [(0, nx + 1.0), (1, ny + 1.0)] {
-        over.cut(|p| p[axis] + 1.0, |p| p[axis] = -1.0, &mut spare);
-        spare.cut(|p| end - p[axis], |p| p[axis] = end, &mut over);
-    }
+fn parts([nx, ny, nz]: [usize; 3], triangle: &[DVec3; 3]) -> Vec<[DVec3; 3]> {
+    let (over, nz) = (over([nx, ny], triangle), nz as f64);
     let flat = |p: DVec3| DVec3::new(p.x, p.y, 0.0);
     if over.corners().iter().all(|corner| corner.point.z <= 0.0) {
         return fans(&over).map(|part| part.map(flat)).collect();
     }
-    let (mut before, mut within) = (over, over);
+    let (mut before, mut within, mut spare) = (over, over, over);
     over.cut(|p| -p.z, |p| p.z = 0.0, &mut before);
     over.cut(|p| p.z, |p| p.z = 0.0, &mut spare);
     spare.cut(|p| nz - p.z, |p| p.z = nz, &mut within);
     fans(&before).map(|part| part.map(flat)).chain(fans(&within)).collect()
 }
 
+/// The part of a triangle in lattice coordinates that lies over a lattice with so many voxels across.
+pub(super) fn over(across: [usize; 2], triangle: &[DVec3; 3]) -> Polygon {
+    let mut over = Polygon::triangle(triangle.map(|point| Corner { point, value: 0.0 }));
+    let mut spare = over;
+    // A voxel of margin, so that rounding does not uncover the border.
+    for (axis, end) in [(0, across[0] as f64 + 1.0), (1, across[1] as f64 + 1.0)] {
+        over.cut(|p| p[axis] + 1.0, |p| p[axis] = -1.0, &mut spare);
+        spare.cut(|p| end - p[axis], |p| p[axis] = end, &mut over);
+    }
+    over
+}
+
 /// The triangles of a convex polygon.
-fn fans(polygon: &Polygon) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+pub(super) fn fans(polygon: &Polygon) -> impl Iterator<Item = [DVec3; 3]> + '_ {
     let corners = polygon.corners();
     let pairs = corners.get(1..).unwrap_or_default().windows(2);
     pairs.map(|pair| [corners[0].point, pair[0].point, pair[1].point])

@@ -52,7 +52,10 @@ impl Prism {
     #[inline]
     pub(super) fn below(&self, from: DVec3, to: DVec3) -> Option<[f64; 2]> {
         let mut part = [0.0, 1.0];
-        let inside = self.sides.iter().all(|side| narrow(&mut part, at_side(side, from), at_side(side, to)));
+        let narrowed = |side: &[f64; 3]| {
+            narrow_to(&mut part, [from, to].map(|p| at_side(side, p)), |value| is_inner(side, value))
+        };
+        let inside = self.sides.iter().all(narrowed);
         (inside && part[0] < part[1]).then_some(part)
     }
 
@@ -67,7 +70,7 @@ impl Prism {
     /// Whether a point has the triangle before or behind it.
     #[inline]
     pub(super) fn is_below(&self, point: DVec3) -> bool {
-        self.sides.iter().all(|side| at_side(side, point) > 0.0)
+        self.sides.iter().all(|side| is_inner(side, at_side(side, point)))
     }
 
     /// How far a point is behind the triangle's plane along the light; no farther than behind all corners,
@@ -96,7 +99,7 @@ impl Prism {
 
 /// Factors of a function above 0 to the left of a directed edge across the light. The opposite edge has the
 /// opposite ones, bit for bit.
-fn side(from: DVec3, to: DVec3) -> [f64; 3] {
+pub(super) fn side(from: DVec3, to: DVec3) -> [f64; 3] {
     let ordered = (from.x, from.y) <= (to.x, to.y);
     let [p, q] = if ordered { [from, to] } else { [to, from] };
     let (x, y) = (p.y - q.y, q.x - p.x);
@@ -105,18 +108,31 @@ fn side(from: DVec3, to: DVec3) -> [f64; 3] {
 }
 
 #[inline]
-fn at_side([x, y, constant]: &[f64; 3], p: DVec3) -> f64 {
+pub(super) fn at_side([x, y, constant]: &[f64; 3], p: DVec3) -> f64 {
     x * p.x + y * p.y + constant
+}
+
+/// Whether a function of a side with a value is that of a point inside. Of both sides on a shared edge one
+/// counts a point on it.
+#[inline]
+fn is_inner([x, y, _]: &[f64; 3], value: f64) -> bool {
+    value > 0.0 || (value == 0.0 && (*x > 0.0 || (*x == 0.0 && *y > 0.0)))
 }
 
 /// Narrows an interval to where a linear function with given values at 0 and 1 is above 0; whether anything
 /// can be left.
 #[inline]
-fn narrow(part: &mut [f64; 2], at_start: f64, at_end: f64) -> bool {
-    match (at_start > 0.0, at_end > 0.0) {
+pub(super) fn narrow(part: &mut [f64; 2], at_start: f64, at_end: f64) -> bool {
+    narrow_to(part, [at_start, at_end], |value| value > 0.0)
+}
+
+/// The same, where it is told which values are inside: all above 0, none below.
+#[inline]
+fn narrow_to(part: &mut [f64; 2], [start, end]: [f64; 2], inside: impl Fn(f64) -> bool) -> bool {
+    match (inside(start), inside(end)) {
         (true, true) => {}
-        (true, false) => part[1] = part[1].min(at_start / (at_start - at_end)),
-        (false, true) => part[0] = part[0].max(at_start / (at_start - at_end)),
+        (true, false) => part[1] = part[1].min(start / (start - end)),
+        (false, true) => part[0] = part[0].max(start / (start - end)),
         (false, false) => return false,
     }
     true
@@ -157,7 +173,10 @@ mod tests {
             let (a, b) = (point(), point());
             let on_edge = a + random() * (b - a);
             let (one, other) = (side(a, b), side(b, a));
-            assert_eq!(at_side(&one, on_edge), -at_side(&other, on_edge));
+            let values = [at_side(&one, on_edge), at_side(&other, on_edge)];
+            assert_eq!(values[0], -values[1]);
+            assert!(is_inner(&one, values[0]) != is_inner(&other, values[1]));
+            assert!(is_inner(&one, 0.0) != is_inner(&other, -0.0));
         }
     }
 
@@ -168,6 +187,6 @@ mod tests {
         let upright = [DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, 1.0, 5.0)];
         assert_eq!(Prism::new(&upright), None);
         assert!(prism().may_meet([0.0, 0.0], [1.0, 1.0]) && prism().may_meet([3.0, 3.0], [9.0, 9.0]));
-        assert!(!prism().may_meet([3.5, 3.5], [9.0, 9.0]) && !prism().may_meet([5.5, 0.0], [9.0, 9.0]));
+        assert!(!prism().may_meet([3.5, 3.5], [9.0, 9.0]) && !prism().may_meet([1.0, -3.0], [9.0, 0.5]));
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! A point is lit if its side faces the light and no triangle of any solid is between; the ray to the light
 //! starts beside the surface by 2^-32 of the size of the coordinates, so that rounding does not shade a
-//! surface by itself. Smoke between is looked up in the shadow texture. Triangles are flat, and seen from
-//! both sides.
+//! surface by itself. The length of smoke between is that along the ray to the light, by the smoke's surface.
+//! Triangles are flat, and seen from both sides.
 
 use glam::DVec3;
 use welter_meshing::spatial::Bvh;

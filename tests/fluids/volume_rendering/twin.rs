@@ -26,8 +26,6 @@ struct Errors {
     worst: [f64; 5],
     /// Root mean square.
     mean: [f64; 5],
-    /// Share of the pixels where it is above 1 %.
-    large: [f64; 5],
 }
 
 const CHANNELS: [&str; 5] = ["alpha", "scatter", "age", "backdrop", "composite"];
@@ -62,7 +60,7 @@ fn errors(scene: &Scene<'_>, parameters: &RenderParameters) -> Errors {
             (drawn, green(&tracer.pixel(SIZE, [x, y], STEPS)))
         })
         .collect();
-    let mut errors = Errors { worst: [0.0; 5], mean: [0.0; 5], large: [0.0; 5] };
+    let mut errors = Errors { worst: [0.0; 5], mean: [0.0; 5] };
     for (k, channel) in CHANNELS.into_iter().enumerate() {
         let most = rows.iter().fold(0.0_f64, |most, row| most.max(row.1[k]));
         let of = |row: &([f64; 5], [f64; 5])| (row.0[k] - row.1[k]).abs();
@@ -70,8 +68,6 @@ fn errors(scene: &Scene<'_>, parameters: &RenderParameters) -> Errors {
         let squares = rows.iter().map(|row| of(row) * of(row)).sum::<f64>() / rows.len() as f64;
         if most > 0.0 {
             (errors.worst[k], errors.mean[k]) = (worst / most, squares.sqrt() / most);
-            let large = rows.iter().filter(|row| of(row) > 0.01 * most).count();
-            errors.large[k] = large as f64 / rows.len() as f64;
         } else {
             assert_eq!(worst, 0.0, "{} is 0 in the twin", channel);
         }
@@ -84,37 +80,63 @@ fn ages(mesh: &ClosedOrientedMesh) -> Vec<f64> {
     mesh.positions().iter().map(|p| 3.0 + p.dot(DVec3::new(0.5, 0.7, -0.4))).collect()
 }
 
-/// Every channel is within 1 % of the twin's at every pixel, but at a share of the pixels.
-fn agrees(name: &str, scene: &Scene<'_>, resolution: u32, share: f64) {
+/// Every channel is within 1 % of the twin's at every pixel.
+fn agrees(name: &str, scene: &Scene<'_>, resolution: u32) {
+    agrees_with(name, scene, &parameters(SIZE[0], SIZE[1], resolution));
+}
+
+fn agrees_with(name: &str, scene: &Scene<'_>, parameters: &RenderParameters) {
     let ages = ages(scene.smoke);
     let scene = Scene { ages: &ages, ..*scene };
-    let errors = errors(&scene, &parameters(SIZE[0], SIZE[1], resolution));
+    let errors = errors(&scene, parameters);
+    let resolution = parameters.shadow_resolution;
     for (k, channel) in CHANNELS.into_iter().enumerate() {
         println!(
-            "{name}, {resolution} voxels: {} differs by {:.2e} at most, root mean square {:.2e}, by more than 1 % at {:.2} % of the pixels",
-            channel,
-            errors.worst[k],
-            errors.mean[k],
-            100.0 * errors.large[k]
+            "{name}, {resolution} voxels: {channel} differs by {:.1e} at most, root mean square {:.1e}",
+            errors.worst[k], errors.mean[k]
         );
     }
     for (k, channel) in CHANNELS.into_iter().enumerate() {
-        assert!(errors.large[k] <= share && errors.mean[k] < 5e-3, "{name}: {} {errors:?}", channel);
+        assert!(errors.worst[k] <= 0.01, "{name}, {resolution} voxels: {channel} {errors:?}");
     }
-    // Neither depends on the shadow texture.
+    // Neither depends on the light.
     assert!(errors.worst[0] < 1e-3 && errors.worst[2] < 1e-3, "{name}: {errors:?}");
 }
 
 #[test]
 fn a_ball() {
     let ball = ball(DVec3::ZERO, 1.0, 0.25);
-    agrees("ball", &scene(&ball, 2.0), 128, 0.0);
+    for resolution in [128, 256] {
+        agrees("ball", &scene(&ball, 2.0), resolution);
+    }
+}
+
+/// Light comes no farther than a voxel.
+#[test]
+fn dense_smoke() {
+    let ball = ball(DVec3::ZERO, 1.0, 0.25);
+    for resolution in [64, 128] {
+        agrees("dense ball", &scene(&ball, 30.0), resolution);
+    }
+}
+
+/// Of few and large voxels, with many triangles in each column, if that is asked for.
+#[test]
+fn crowded_columns() {
+    let smoke = ball(DVec3::ZERO, 1.0, 0.25);
+    let solid = ball(DVec3::new(-1.0, 1.1, 0.9), 0.35, 0.15).into_mesh();
+    let solids = [Solid { mesh: &solid, albedo: [0.5, 0.6, 0.7] }];
+    let traced = RenderParameters { traced_triangles: u32::MAX, ..parameters(SIZE[0], SIZE[1], 16) };
+    for extinction in [1.0, 30.0] {
+        let scene = Scene { solids: &solids, ..scene(&smoke, extinction) };
+        agrees_with(&format!("ball of extinction {extinction}"), &scene, &traced);
+    }
 }
 
 #[test]
 fn a_ball_inside_out() {
     let ball = ball(DVec3::ZERO, 1.0, 0.25).reversed();
-    agrees("ball inside out", &scene(&ball, 2.0), 128, 0.0);
+    agrees("ball inside out", &scene(&ball, 2.0), 128);
 }
 
 #[test]
@@ -127,26 +149,53 @@ fn overlapping_balls_by_every_rule() {
     {
         let mut scene = scene(&smoke, 1.5);
         scene.medium.interior = interior;
-        agrees(&format!("overlapping balls, {interior:?}"), &scene, 128, 0.0);
+        for resolution in [128, 256] {
+            agrees(&format!("overlapping balls, {interior:?}"), &scene, resolution);
+        }
     }
 }
 
 #[test]
 fn a_torus() {
     let torus = torus(&Torus { edge_length: 0.2, ..Torus::default() }).unwrap();
-    agrees("torus", &scene(&torus, 2.0), 128, 0.0);
+    for resolution in [128, 256] {
+        agrees("torus", &scene(&torus, 2.0), resolution);
+    }
 }
 
-/// A bent sheet of so many voxels across.
+/// A bent sheet of some voxels across, or of a part of one. By the texture alone, thin ones are off by more.
 #[test]
 fn sheets() {
     for resolution in [128, 256] {
-        for voxels in [1.0, 2.0, 4.0, 8.0] {
-            // The longest side of the sheet, seen from the light.
+        for voxels in [0.25, 1.0, 2.0, 4.0, 8.0] {
+            // 2.75 is the longest side of the sheet, seen from the light.
             let thickness = voxels * 2.75 / f64::from(resolution);
-            let smoke = sheet(thickness);
-            agrees(&format!("sheet of {voxels} voxels"), &scene(&smoke, 0.6 / thickness), resolution, 0.0);
+            let (name, smoke) = (format!("sheet of {voxels} voxels"), sheet(thickness));
+            let scene = scene(&smoke, 0.6 / thickness);
+            agrees(&name, &scene, resolution);
+            let textured =
+                RenderParameters { traced_triangles: 0, ..parameters(SIZE[0], SIZE[1], resolution) };
+            let textured = errors(&scene, &textured);
+            println!(
+                "{name}, {resolution} voxels: scatter of the texture alone differs by {:.1e} at most, root mean square {:.1e}",
+                textured.worst[1], textured.mean[1]
+            );
+            assert!(textured.worst[1] > 0.05 || voxels > 2.0, "{name}: {textured:?}");
         }
+    }
+}
+
+/// Two sheets, one in the shadow of the edge of the other, far from it.
+#[test]
+fn a_sheet_in_the_shadow_of_a_sheet() {
+    let low = sheet(0.05);
+    // Toward the light, so that its shadow covers a half.
+    let high = moved(&low, |p| p - 2.0 * DVec3::new(0.9, -1.2, -0.7) + DVec3::X);
+    let smoke = together(vec![low, high]);
+    let mut scene = scene(&smoke, 12.0);
+    scene.camera.eye = DVec3::new(2.6, 2.2, 8.4);
+    for resolution in [64, 128] {
+        agrees("sheets in a row", &scene, resolution);
     }
 }
 
@@ -156,8 +205,7 @@ fn sheet(thickness: f64) -> ClosedOrientedMesh {
     moved(&flat, |p| p + DVec3::Z * 0.2 * p.x * p.x)
 }
 
-/// At the edge of the shadow of a ball on a plate the smoke's thickness rises like a square root, and at that
-/// of a solid the light jumps: within a voxel or a texel of the edge the picture differs more.
+/// Shadows of a ball and of its smoke on a plate and on each other.
 #[test]
 fn a_solid_that_casts_a_shadow() {
     let (smoke, solid) =
@@ -167,9 +215,12 @@ fn a_solid_that_casts_a_shadow() {
     let solids =
         [Solid { mesh: &solid, albedo: [0.5, 0.6, 0.7] }, Solid { mesh: &plate, albedo: [0.9, 0.5, 0.3] }];
     let scene = Scene { solids: &solids, ..scene(&smoke, 1.0) };
-    agrees("ball with solids", &scene, 192, 0.02);
+    for resolution in [128, 256] {
+        agrees("ball with solids", &scene, resolution);
+    }
 }
 
+/// By the texture alone.
 #[test]
 fn the_shadow_texture_converges() {
     let ball = ball(DVec3::ZERO, 1.0, 0.25);
@@ -177,7 +228,8 @@ fn the_shadow_texture_converges() {
     let scene = Scene { ages: &ages, ..scene(&ball, 3.0) };
     let resolutions = [16, 32, 64, 128];
     let errors = resolutions.map(|resolution| {
-        let errors = errors(&scene, &parameters(SIZE[0], SIZE[1], resolution));
+        let textured = RenderParameters { traced_triangles: 0, ..parameters(SIZE[0], SIZE[1], resolution) };
+        let errors = errors(&scene, &textured);
         println!(
             "{resolution} voxels: scatter off by {:.5} at most, {:.5} root mean square",
             errors.worst[1], errors.mean[1]

@@ -63,13 +63,15 @@ Pictures of the smoke as a volume, lit and shadowed, of every frame:
   [render]
   extinction = 12.0            # one over the length after which 1/e of the light is left
   size = [960, 540]            # and: first_frame, last_frame, every_frame, albedo, background, interior, shadow_resolution, ...
+  traced_triangles = 16        # up to so many in a column of the shadow texture, shadows are exact where it is too coarse; 0: never
   layer_thickness = 0.2        # of open sheets, which are drawn as layers; along layer_direction, or against the normals
   [render.camera]              # the same in all frames: eye and target; or azimuth, elevation, fill around box = [[...], [...]],
   azimuth = 30.0               #   without which all emissions, flows and solids are in the picture; up, field_of_view
   [render.light]               # direction (the way it travels), radiance, ambient
   [render.age_blur]            # spread_rel, most_rel: old smoke is soft
   [render.planes]              # alpha, scatter, age, backdrop, composite: each [], [\"png\"], [\"exr\"] or both
-  composite = [\"png\", \"exr\"]  # PNG: sRGB, clipped to 0..1 (png_colors = \"8-bit\" | \"16-bit\"); EXR: linear (exr_numbers)
+  composite = [\"png\", \"exr\"]  # PNG: sRGB, clipped to 0..1 (png_colors = \"8-bit\" | \"16-bit\"); EXR: linear (exr_numbers = \"32-bit\" | \"16-bit\",
+                               #   where channels with numbers above 65504 stay at 32)
 In PNG, alpha, scatter and age are 16 bits of grey: 1 is white, and of ages age_white, the end of the scene by default.
 
 DIR gets surface/frame_0000.ply and so on, paraview/surface.pvd (with ages), stats.jsonl (a line a step), report.html,
