@@ -25,6 +25,10 @@ use super::columns::Columns;
 /// Pieces of a way shorter than this part of it are left out.
 const SLIVER: f64 = 1.0 / (1_u64 << 24) as f64;
 
+/// A column may have so many times the triangles that columns may have in the mean: sheets have more of them
+/// at their rims.
+const CROWD: usize = 4;
+
 /// Most places where a piece is divided because triangles before it intersect.
 const MOST_SPLITS: usize = 64;
 
@@ -80,14 +84,16 @@ struct Layer {
 }
 
 impl LightPaths {
-    /// From triangles in lattice coordinates, in a lattice with so many voxels across the light.
+    /// From triangles in lattice coordinates, in a lattice with so many voxels across the light; for means, up
+    /// to `traced` triangles in the usual column.
     pub(super) fn new(
         corners: &[[DVec3; 3]],
         across: [usize; 2],
         rule: InteriorRule,
-        most: usize,
+        traced: usize,
         optical_depth: f64,
     ) -> Self {
+        let most = traced.saturating_mul(CROWD);
         Self { columns: Columns::new(corners, across), rule, most, optical_depth }
     }
 
@@ -323,7 +329,7 @@ mod tests {
 
     #[test]
     fn crowded_columns_have_no_mean() {
-        let crowded = LightPaths::new(&pile(), [20, 20], InteriorRule::NonZero, 3, 0.3);
+        let crowded = LightPaths::new(&pile(), [20, 20], InteriorRule::NonZero, 1, 0.3);
         let (from, to) = (DVec3::new(10.0, 10.0, 12.0), DVec3::new(10.5, 10.0, 12.0));
         assert_eq!(crowded.mean([from, to], 0.1, &[[0.0, 1.0]], &mut Before::default()), None);
     }

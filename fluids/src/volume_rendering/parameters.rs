@@ -13,12 +13,12 @@ pub struct RenderParameters {
     /// 4096. Voxels are cubes, so this sets the other sides. Default: 128, between the sides of the texture
     /// of \[Brochu12, section 6.7\].
     pub shadow_resolution: u32,
-    /// Most triangles of the smoke's surface in a column of the shadow texture, also in the mean of all columns,
-    /// with which light is traced through the surface itself where the texture would be off; with more, and
-    /// always if this is 0, the light is that of the texture. Time goes with it where it is needed: where the
-    /// surface is oblique to the light or its shadow has an edge. Default: 16, which holds for a surface whose
-    /// triangles are no smaller than voxels and that has a few layers along the light; the picture is then
-    /// within 1 % of one with all rays traced, also of sheets thinner than a voxel.
+    /// Most triangles of the smoke's surface in the columns of the shadow texture, in the mean, with which light
+    /// is traced through the surface itself where the texture would be off; a single column may have four
+    /// times as many. With more, and always if this is 0, the light is that of the texture. Time goes with it
+    /// where the surface is oblique to the light or its shadow has an edge. Default: 16, which holds for a
+    /// surface whose triangles are no smaller than voxels and that has a few layers along the light; the
+    /// picture is then within 1 % of one with all rays traced, also of sheets thinner than a voxel.
     pub traced_triangles: u32,
     /// Most optical depth between two samples of the light along a ray; they are also at most a voxel apart.
     /// From 2^-10 to 1. Default: 1/4: what the light of a sample misses is below (1/4)^2 / 24 of it where

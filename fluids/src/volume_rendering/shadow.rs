@@ -57,8 +57,8 @@ pub(super) struct Scratch {
 
 impl Shadow {
     /// The shadow of smoke with a surface and an extinction, and of the triangles of solids, in scaled
-    /// coordinates. Light is traced where the texture is rough, unless a column has more than `traced`
-    /// triangles, or columns have more in the mean.
+    /// coordinates. Light is traced where the texture is rough, unless columns have more than `traced`
+    /// triangles in the mean.
     pub(super) fn new(
         lattice: Lattice,
         corners: &[[DVec3; 3]],

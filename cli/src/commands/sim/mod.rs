@@ -63,7 +63,7 @@ Pictures of the smoke as a volume, lit and shadowed, of every frame:
   [render]
   extinction = 12.0            # one over the length after which 1/e of the light is left
   size = [960, 540]            # and: first_frame, last_frame, every_frame, albedo, background, interior, shadow_resolution, ...
-  traced_triangles = 16        # up to so many in a column of the shadow texture, shadows are exact where it is too coarse; 0: never
+  traced_triangles = 16        # with up to so many in a column of the shadow texture, shadows are exact where it is too coarse; 0: never
   layer_thickness = 0.2        # of open sheets, which are drawn as layers; along layer_direction, or against the normals
   [render.camera]              # the same in all frames: eye and target; or azimuth, elevation, fill around box = [[...], [...]],
   azimuth = 30.0               #   without which all emissions, flows and solids are in the picture; up, field_of_view
