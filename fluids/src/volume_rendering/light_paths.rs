@@ -249,7 +249,7 @@ mod tests {
         let face = |bits: u32| {
             let sign = |axis: u32| if bits >> axis & 1 == 1 { -radius } else { radius };
             let [x, y, z] = [sign(0) * DVec3::X, sign(1) * DVec3::Y, sign(2) * DVec3::Z];
-            let corners = if bits.count_ones() % 2 == 0 { [x, y, z] } else { [y, x, z] };
+            let corners = if bits.count_ones().is_multiple_of(2) { [x, y, z] } else { [y, x, z] };
             corners.map(|corner| center + corner)
         };
         (0..8).map(face).collect()

@@ -141,10 +141,11 @@ impl Shadow {
             Lit::All => &[[0.0, 1.0]],
             Lit::Parts => &scratch.spans.lit,
         };
-        if let Some(paths) = self.paths.as_ref().filter(|_| careful) {
-            if let Some(light) = paths.mean([from, to], optical_depth, parts, &mut scratch.before) {
-                return light as f32;
-            }
+        let paths = self.paths.as_ref().filter(|_| careful);
+        let traced =
+            paths.and_then(|paths| paths.mean([from, to], optical_depth, parts, &mut scratch.before));
+        if let Some(light) = traced {
+            return light as f32;
         }
         if lit == Lit::All {
             return light;
