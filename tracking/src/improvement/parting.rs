@@ -153,7 +153,7 @@ impl Cut {
 }
 
 /// On which side of a triangle a point lies: positive where its normal points, exactly.
-fn side([a, b, c]: [DVec3; 3], p: DVec3) -> Sign {
+pub(super) fn side([a, b, c]: [DVec3; 3], p: DVec3) -> Sign {
     orient3d(a.to_array(), c.to_array(), b.to_array(), p.to_array())
 }
 
