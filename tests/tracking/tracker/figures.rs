@@ -118,7 +118,7 @@ fn normal_motion_converges_to_the_entropy_solution() {
         assert_eq!(components(&tracker), 1);
         // \[Brochu12, Table 3.1\]: 0.2 of the edge length at 0.04.
         assert!(found.linf < 0.1 * edge, "{edge}: {found:?}");
-        // Over all edge lengths that were named: of two halvings, 1.41 and 0.63 for the largest error, 1.91 and 1.34 for the mean, because
+        // Over all edge lengths that were named: of two halvings, 1.41 and 0.69 for the largest error, 1.91 and 1.39 for the mean, because
         // the bottom of the crease is filled by the shortest edges while the balls grow.
         let [coarse, linf, l1] = *first.get_or_insert([edge, found.linf, found.l1]);
         if edge < coarse {
