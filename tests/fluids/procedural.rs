@@ -1,6 +1,7 @@
 //! Flow primitives, against quadrature, automatic differentiation and fluxes.
 
 mod boundaries;
+mod confinement;
 mod divergence;
 mod filaments;
 mod laws;

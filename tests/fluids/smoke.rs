@@ -7,6 +7,7 @@ mod fog_layers;
 mod laws;
 mod releases;
 mod unions;
+mod walls;
 
 use glam::DVec3;
 use welter_fluids::procedural::{

@@ -44,6 +44,10 @@ impl VelocityField for AnyPotential<'_> {
     fn velocity(&self, position: DVec3, time: f64) -> DVec3 {
         self.0.velocity(position, time)
     }
+
+    fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
+        self.0.confine(from, to, times)
+    }
 }
 
 /// A velocity field of any type, shared. Copies share it.
@@ -76,5 +80,9 @@ impl fmt::Debug for AnyVelocity<'_> {
 impl VelocityField for AnyVelocity<'_> {
     fn velocity(&self, position: DVec3, time: f64) -> DVec3 {
         self.0.velocity(position, time)
+    }
+
+    fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
+        self.0.confine(from, to, times)
     }
 }

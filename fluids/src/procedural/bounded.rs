@@ -14,11 +14,15 @@
 //! * At the wall, `phi = 0`, the velocity relative to the solid is `R'(0)/w grad phi x (psi - psi_w)`: perpendicular to the normal
 //!   within the rounding of one cross product, whatever the potential and the ramp. It is not zero: the fluid slips.
 //! * So the wall is a surface that the exact flow does not cross, from either side: along a path `phi` changes at a rate of
-//!   at most a number times `phi`, and so has no zero. A step of the method of Runge and Kutta along a plane wall does not cross it
-//!   either; along a curved one it may, by its own error, of order five in the step where the distance is smooth: paths of a
-//!   fixed time leave the wall by an error of order four (of order two where second derivatives of the distance jump, as where a face
-//!   joins a round edge). So steps must be small against the radius of curvature over the speed; with a twentieth of it
-//!   none of 10,000 particles crossed a ball, a torus or a plane in 200 to 400 steps.
+//!   at most a number times `phi`, and so has no zero.
+//! * Nor does a path of steps ([`Scheme::follow`](welter_tracking::flows::Scheme::follow),
+//!   [`Advection`](welter_tracking::flows::Advection)) lead into the solid, however long they are: an end within, or with the solid in
+//!   between, is put back beside the wall ([`VelocityField::confine`]), whatever else is added to this flow in a
+//!   [`WeightedSum`](super::WeightedSum). Steps by themselves would cross curved walls by their own error: paths of a fixed time by
+//!   one of order four (of order two where second derivatives of the distance jump, as where a face joins a round edge). That much
+//!   is put back, so the order of the path is that of the method.
+//! * What is in the solid for another reason, as a new vertex in the middle of an edge along a round wall, or smoke that is released
+//!   in it, is outside after the next step: at the nearest wall, as far as the gradient leads there.
 //! * Of solids at rest without an anchor, one [`Bounded`] in another, all walls hold, also where their layers overlap.
 //! * Velocities have as many continuous derivatives as the gradient of the distance and the potential, up to four.
 //!
@@ -27,22 +31,27 @@
 //!   solids that may meet are better united to one shape.
 //! * Continuous velocities at kinks of the distance (around edges, half way between parts): there the part along the wall jumps
 //!   in direction. The part across the kink does not, so there is no divergence in the kink.
-//! * Tangential flow on edges and corners, where there is no normal; a sharp edge may be crossed by steps of any length.
-//! * To bring a particle back that a step too long has put into the solid: it stays there.
-//! * A flow inside that means something: it is that of the odd ramp, against the flow outside. What is inside stays inside.
+//! * Tangential flow on edges and corners, where there is no normal; there steps of any length have to be put back.
+//! * The volume of what is put out of the solid.
+//! * To see solids between the ends of a step that are thinner than 1/1024 of the width; or a place for a point that moving solids
+//!   leave none.
+//! * A flow inside that means something: it is that of the odd ramp, against the flow outside, and does not lead out. To keep a flow
+//!   in a vessel, let the solid be the [`Complement`](welter_meshing::field::Complement) of what it holds.
 //! * Rotation of solids, or speeds that do not grow where the width is small: they are of the order of `psi / w`.
 //! * Numbers where the distance has none, as beyond 1e150.
 //! * Gradients by finite differences: a distance that has no other is refused ([`ProceduralError::NoExactGradient`]); where only
 //!   a part of it has none, velocities there are not numbers.
 //!
 //! # Complexity
-//! That of the potential and the distance; in the layer also a gradient, and with an anchor a second potential.
+//! That of the potential and the distance; in the layer also a gradient, and with an anchor a second potential. A step takes two more
+//! distances, and near the wall two gradients.
 
 use glam::DVec3;
 use welter_meshing::field::ScalarField;
 use welter_tracking::flows::VelocityField;
 
 use super::ramp::ramp;
+use super::wall::{NO_STEP, Wall};
 use super::{LocalPotential, Path, ProceduralError, VectorPotential};
 
 /// How a flow is led around a solid.
@@ -111,9 +120,6 @@ impl<P: VectorPotential, S: ScalarField> Bounded<P, S> {
     }
 }
 
-/// The step for finite differences that gives none.
-const NO_STEP: f64 = f64::NAN;
-
 impl<P: VectorPotential, S: ScalarField> VectorPotential for Bounded<P, S> {
     fn potential_and_curl(&self, position: DVec3, time: f64) -> LocalPotential {
         let free = self.flow.potential_and_curl(position, time);
@@ -141,5 +147,11 @@ impl<P: VectorPotential, S: ScalarField> VectorPotential for Bounded<P, S> {
 impl<P: VectorPotential, S: ScalarField> VelocityField for Bounded<P, S> {
     fn velocity(&self, position: DVec3, time: f64) -> DVec3 {
         self.potential_and_curl(position, time).curl
+    }
+
+    fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
+        let to = self.flow.confine(from, to, times);
+        let displacements = times.map(|time| self.motion(time).0);
+        Wall { solid: &self.solid, displacements, width: self.parameters.ramp_width }.confine(from, to)
     }
 }

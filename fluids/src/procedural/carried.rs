@@ -4,13 +4,13 @@
 //! the velocities of the flow at the keyframes: both have an error of order four in the step.
 
 use glam::DVec3;
-use welter_tracking::flows::VelocityField;
+use welter_tracking::flows::{Scheme, VelocityField};
 
 use super::{Path, ProceduralError};
 
 impl Path {
     /// The displacement of a point that starts somewhere at a time and goes with a flow until another, in equal steps. Before and after
-    /// it rests.
+    /// it rests. It does not cross the walls of the flow.
     ///
     /// ```
     /// use glam::DVec3;
@@ -44,13 +44,7 @@ impl Path {
         let mut keys = vec![(from, DVec3::ZERO, flow.velocity(start, from))];
         for index in 0..steps {
             let (now, next) = (time(index), time(index + 1));
-            let dt = next - now;
-            let half = 0.5 * dt;
-            let v1 = flow.velocity(position, now);
-            let v2 = flow.velocity(position + half * v1, now + half);
-            let v3 = flow.velocity(position + half * v2, now + half);
-            let v4 = flow.velocity(position + dt * v3, next);
-            position += dt * ((v1 + 2.0 * (v2 + v3) + v4) / 6.0);
+            position = Scheme::Rk4.follow(flow, position, now, next - now).unwrap_or(DVec3::NAN);
             keys.push((next, position - start, flow.velocity(position, next)));
         }
         Self::with_rates(&keys)

@@ -79,6 +79,7 @@ mod scalar_noise;
 mod scale;
 mod source;
 mod sum;
+mod wall;
 mod wind;
 
 pub use amplitude::{Amplitude, Pulse};

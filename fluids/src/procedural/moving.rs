@@ -38,4 +38,11 @@ impl<F: VelocityField> VelocityField for Moving<F> {
     fn velocity(&self, position: DVec3, time: f64) -> DVec3 {
         self.part.velocity(position - self.path.at(time), time)
     }
+
+    fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
+        let [before, after] = times.map(|time| self.path.at(time));
+        let unconfined = to - after;
+        let end = self.part.confine(from - before, unconfined, times);
+        if end == unconfined { to } else { end + after }
+    }
 }

@@ -15,6 +15,7 @@ pub struct Weighted<F> {
 }
 
 /// The sum of flows, each times its weight at the time, in their order. A part of weight zero is not evaluated.
+/// The walls of all parts hold for the sum, whatever the weights are: what one part would carry through the wall of another stays beside it.
 ///
 /// Of potentials it is a potential: curls are linear, and the weights do not depend on the place.
 ///
@@ -29,10 +30,17 @@ pub struct Weighted<F> {
 /// ]);
 /// assert_eq!(sum.velocity(DVec3::ZERO, 0.0), 2.5 * DVec3::Y);
 /// ```
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WeightedSum<F> {
     /// The parts; none for no flow.
     pub parts: Vec<Weighted<F>>,
+}
+
+impl<F> Default for WeightedSum<F> {
+    /// No flow.
+    fn default() -> Self {
+        Self { parts: Vec::new() }
+    }
 }
 
 impl<F> WeightedSum<F> {
@@ -61,5 +69,9 @@ impl<F: VelocityField> VelocityField for WeightedSum<F> {
     fn velocity(&self, position: DVec3, time: f64) -> DVec3 {
         self.weighted(time)
             .fold(DVec3::ZERO, |sum, (weight, part)| sum + weight * part.velocity(position, time))
+    }
+
+    fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
+        self.parts.iter().fold(to, |end, it| it.part.confine(from, end, times))
     }
 }

@@ -347,6 +347,10 @@ impl<F: VelocityField> VelocityField for Lent<'_, F> {
     fn velocity(&self, position: DVec3, time: f64) -> DVec3 {
         self.0.velocity(position, time)
     }
+
+    fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
+        self.0.confine(from, to, times)
+    }
 }
 
 impl<F: VelocityField> Flow for Motion<'_, F> {

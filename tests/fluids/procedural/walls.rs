@@ -180,7 +180,7 @@ fn moving_solids_push_the_fluid() {
     }
 }
 
-/// How far particles come into a solid at the worst, relative to nothing: below zero if one is inside at any step.
+/// The least distance of particles that follow the velocities alone: below zero if one is inside at any step.
 fn least_distance(
     flow: &(impl VelocityField + ?Sized),
     solid: &impl ScalarField,
@@ -229,7 +229,7 @@ fn particles() -> usize {
 }
 
 #[test]
-fn particles_do_not_cross_walls() {
+fn small_steps_by_themselves_do_not_cross_round_walls() {
     let ball = Ball { center: DVec3::new(0.2, 0.1, -0.3), radius: 0.5 };
     let torus = Torus { radius: 0.7, tube_radius: 0.25, ..Torus::default() };
     let plane = HalfSpace { point: DVec3::new(0.0, 0.0, 0.0), normal: DVec3::Z };
@@ -288,9 +288,9 @@ fn walls_are_crossed_by_the_error_of_the_method() {
     assert!(order(errors_on_cuboid, 4.0) > 1.8);
 }
 
-/// What is inside stays inside.
+/// Velocities do not lead out of a solid either; only [`VelocityField::confine`] does.
 #[test]
-fn particles_do_not_leave_solids() {
+fn velocities_do_not_lead_out_of_solids() {
     let ball = Ball { center: DVec3::ZERO, radius: 1.0 };
     let flow = around(ball, 0.25);
     let inside: Vec<DVec3> = points(200, 0.95, 61).into_iter().filter(|p| p.length() < 0.95).collect();

@@ -37,7 +37,7 @@ pub use error::FlowError;
 pub use face_offsetting::{FaceOffsetting, FaceOffsettingParameters, Front, NormalSpeed, Offsets};
 pub use jitter::Jitter;
 pub use mean_curvature::{CurvatureStep, MeanCurvature};
-pub use velocity::{Advection, NoVelocity, Scheme, VelocityField};
+pub use velocity::{Advection, NoVelocity, Scheme, VelocityField, confined};
 
 use glam::DVec3;
 use rayon::prelude::*;

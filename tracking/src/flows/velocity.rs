@@ -13,6 +13,52 @@ use crate::surface::MovingSurface;
 pub trait VelocityField: Sync {
     /// The velocity at a position and a time.
     fn velocity(&self, position: DVec3, time: f64) -> DVec3;
+
+    /// Where a step of a point ends, if it would end at `to` by the velocities alone: fields with walls put back what has crossed
+    /// one, for a step has an error, and its path is not known between its ends. `times` are those of the beginning and the end.
+    ///
+    /// Each wall is looked at once, and where there are several, the last holds; [`confined`] repeats it until all hold. A field in
+    /// others is asked by them. Default: there are no walls, so `to`, bit for bit, which is also what those with walls give where
+    /// there is nothing to be put back.
+    fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
+        let _ = (from, times);
+        to
+    }
+}
+
+/// How often walls are looked at in turn. Between two walls at a right angle one round is enough; at others errors fall by the square of
+/// the cosine of the angle with each.
+const ROUNDS: usize = 16;
+
+/// The end of a step beside all walls of a field: [`VelocityField::confine`], until nothing changes. If that is not so after 16 rounds,
+/// as where walls meet at a small angle, the point stays with the walls: at the start, if they are at rest.
+///
+/// ```
+/// use glam::DVec3;
+/// use welter_tracking::flows::{VelocityField, confined};
+///
+/// /// A wind against a floor and a wall.
+/// struct Corner;
+/// impl VelocityField for Corner {
+///     fn velocity(&self, _: DVec3, _: f64) -> DVec3 {
+///         DVec3::new(-1.0, 0.5, -1.0)
+///     }
+///     fn confine(&self, _: DVec3, to: DVec3, _: [f64; 2]) -> DVec3 {
+///         DVec3::new(to.x.max(0.0), to.y, to.z.max(0.0))
+///     }
+/// }
+/// assert_eq!(confined(&Corner, DVec3::ONE, DVec3::new(-1.0, 2.0, -1.0), [0.0, 2.0]), 2.0 * DVec3::Y);
+/// ```
+pub fn confined(field: &impl VelocityField, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
+    let mut end = to;
+    for _ in 0..ROUNDS {
+        let next = field.confine(from, end, times);
+        if next == end || !next.is_finite() {
+            return next;
+        }
+        end = next;
+    }
+    field.confine(from, from, times)
 }
 
 impl<F: Fn(DVec3, f64) -> DVec3 + Sync> VelocityField for F {
@@ -43,7 +89,7 @@ pub struct NoVelocity {
 }
 
 impl Scheme {
-    /// Where a point is after a step of `dt` with a field. It need not be finite: a sum can overflow.
+    /// Where a point is after a step of `dt` with a field, beside its walls ([`confined`]). It need not be finite: a sum can overflow.
     ///
     /// ```
     /// use glam::DVec3;
@@ -69,13 +115,14 @@ impl Scheme {
         };
         let v1 = at(start, time)?;
         if self == Self::Euler {
-            return Ok(start + dt * v1);
+            return Ok(confined(field, start, start + dt * v1, [time, time + dt]));
         }
         let half = 0.5 * dt;
         let v2 = at(start + half * v1, time + half)?;
         let v3 = at(start + half * v2, time + half)?;
         let v4 = at(start + dt * v3, time + dt)?;
-        Ok(start + dt * ((v1 + 2.0 * (v2 + v3) + v4) / 6.0))
+        let end = start + dt * ((v1 + 2.0 * (v2 + v3) + v4) / 6.0);
+        Ok(confined(field, start, end, [time, time + dt]))
     }
 }
 

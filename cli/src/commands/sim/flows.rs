@@ -22,6 +22,10 @@ impl VelocityField for SceneFlow {
     fn velocity(&self, position: DVec3, time: f64) -> DVec3 {
         self.0.velocity(position, time)
     }
+
+    fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
+        self.0.confine(from, to, times)
+    }
 }
 
 /// A flow of a scene by itself.

@@ -53,8 +53,8 @@ Kinds of [[flows]] and their keys:
               gain, waves, potential = \"spatial\" | \"planar\"
   (of all: amplitude, or amplitude_keys = [[time, amplitude], ...], or [flows.pulse] start, rise, top, fall, period;
   path = [[time, x, y, z], ...])
-[[solids]], which all flows but sources go around: kind = \"ball\", \"box\", \"torus\", \"capsule\", \"cylinder\",
-  \"half-space\" with its keys, ramp_width, anchor, path; in pictures drawn = true, albedo
+[[solids]], which all flows but sources go around, and no vertex enters: kind = \"ball\", \"box\", \"torus\",
+  \"capsule\", \"cylinder\", \"half-space\" with its keys, ramp_width, anchor, path; in pictures drawn = true, albedo
 [smoke]: scheme, most_triangles, over_budget = \"coarsen\" | \"stop-splitting\", coarsening
 [improvement], [topology], [integration] (collisions): each has enabled; `--dry-run` tells every key
 [output]: every, checkpoint_every (steps), pictures = true, size = [800, 600]
