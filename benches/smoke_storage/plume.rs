@@ -68,7 +68,14 @@ pub(crate) fn medium(extinction: f64) -> Medium {
 /// What is seen behind the smoke: a grey that is neither as bright nor as dark as smoke is.
 pub(crate) const BACKGROUND: [f64; 3] = [0.05, 0.05, 0.05];
 
-/// How pictures are made.
+/// How pictures are made. Light is traced however fine the surface, so that the reference is as exact as the surface that is compared
+/// with it.
 pub(crate) fn parameters() -> RenderParameters {
-    RenderParameters { width: 480, height: 540, shadow_resolution: 160, ..RenderParameters::default() }
+    RenderParameters {
+        width: 480,
+        height: 540,
+        shadow_resolution: 160,
+        traced_triangles: u32::MAX,
+        ..RenderParameters::default()
+    }
 }
