@@ -100,11 +100,16 @@ fn a_dry_run_tells_the_scene_and_writes_nothing() {
         bench.run("sim a.toml --dry-run --set smoke.coarsening=1.5 --set integration.enabled=true").ok();
     for line in ["coarsening = 1.5\n", "split_scheme = \"midpoint\"\n", "joining = \"separate\"\n"] {
         assert!(ran.out.contains(line), "{}", ran.out);
+        for absent in ["# count = ...", "# reference_length = ...", "# [flows.pulse] ...", "# [[solids]] ..."]
+        {
+            assert!(ran.out.lines().any(|line| line == absent), "{absent}");
+        }
     }
     for line in [
         "[render]\nenabled = false\nsize = [960, 540]\nfirst_frame = 0\nevery_frame = 1\nalbedo = [1.0, 1.0, 1.0]\n",
         "interior = \"non-zero\"\nbackground = [0.0, 0.0, 0.0]\nshadow_resolution = 128\ntraced_triangles = 16\n",
-        "age_white = 0.24\npng_colors = \"8-bit\"\nexr_numbers = \"32-bit\"\n\n[render.light]\ndirection = ",
+        "age_white = 0.24\npng_colors = \"8-bit\"\nexr_numbers = \"32-bit\"\n",
+        "\n\n[render.light]\ndirection = ",
         "[render.camera]\nup = [0.0, 0.0, 1.0]\nfield_of_view = 40.0\nazimuth = 30.0\nelevation = 10.0\nfill = 0.9\n",
         "[render.planes]\nalpha = []\nscatter = []\nage = []\nbackdrop = []\ncomposite = [\"png\"]\n",
     ] {

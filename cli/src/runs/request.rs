@@ -26,7 +26,7 @@ pub(crate) struct Request {
     /// Go on with the run in DIR
     #[arg(long)]
     resume: bool,
-    /// Write nothing; tell the scene with every value that holds
+    /// Write nothing; tell the scene with every value that holds, and as comments every key without one
     #[arg(long)]
     dry_run: bool,
 }
@@ -61,7 +61,7 @@ impl Request {
     pub(crate) fn begin(&self, to_run: ToRun, run: &Run) -> Result<Option<Begun<'_>>, Box<Failure>> {
         let console = &run.console;
         let (false, Some(output)) = (self.dry_run, &self.output) else {
-            console.result(&to_run.scene.to_toml())?;
+            console.result(&to_run.scene.to_toml_with_absent_keys())?;
             console.object(
                 &json!({ "input": shown(&self.scene), "steps": to_run.steps, "scene": to_run.scene.to_json() }),
             )?;

@@ -21,45 +21,93 @@ pub(crate) enum Value {
     Table(Resolved),
     /// An array of tables.
     Tables(Vec<Resolved>),
+    /// A key that has no default, and that the scene does not give.
+    Absent,
+    /// A table, or an array of `many`, of the kind.
+    AbsentTable {
+        many: bool,
+    },
 }
 
 impl Resolved {
     /// As a scene.
     pub(crate) fn to_toml(&self) -> String {
         let mut text = String::new();
-        self.write(&mut text, "");
+        self.write(&mut text, "", Absent::Hidden);
+        text
+    }
+
+    /// As a scene, with the keys that may be given, and are not, as comments.
+    pub(crate) fn to_toml_with_absent_keys(&self) -> String {
+        let mut text = String::new();
+        self.write(&mut text, "", Absent::Told);
         text
     }
 
     pub(crate) fn to_json(&self) -> Json {
-        let pairs = self.0.iter().map(|(key, value)| (key.clone(), value.to_json()));
+        let given = self.0.iter().filter(|(_, value)| value.is_given());
+        let pairs = given.map(|(key, value)| (key.clone(), value.to_json()));
         Json::Object(pairs.collect::<Map<_, _>>())
     }
 
     /// The values of the table first: what stands behind a header belongs to it.
-    fn write(&self, text: &mut String, path: &str) {
+    fn write(&self, text: &mut String, path: &str, absent: Absent) {
         for (key, value) in &self.0 {
-            if !matches!(value, Value::Table(_) | Value::Tables(_)) {
+            if !matches!(
+                value,
+                Value::Table(_) | Value::Tables(_) | Value::Absent | Value::AbsentTable { .. }
+            ) {
                 let _ = writeln!(text, "{key} = {}", value.in_line());
             }
         }
         for (key, value) in &self.0 {
+            if *value == Value::Absent && absent == Absent::Told {
+                let _ = writeln!(text, "# {key} = ...");
+            }
+        }
+        for (key, value) in &self.0 {
             let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-            let mut header = |brackets: [&str; 2], table: &Self| {
+            let mut header = |[open, close]: [&str; 2], table: &Self| {
                 let gap = if text.is_empty() { "" } else { "\n" };
-                let _ = writeln!(text, "{gap}{}{path}{}", brackets[0], brackets[1]);
-                table.write(text, &path);
+                let _ = writeln!(text, "{gap}{open}{path}{close}");
+                table.write(text, &path, absent);
             };
             match value {
-                Value::Table(table) => header(["[", "]"], table),
+                Value::Table(table) if absent == Absent::Told || table.has_values() => {
+                    header(["[", "]"], table);
+                }
                 Value::Tables(tables) => tables.iter().for_each(|table| header(["[[", "]]"], table)),
+                Value::AbsentTable { many } if absent == Absent::Told => {
+                    let brackets = if *many { ["# [[", "]] ..."] } else { ["# [", "] ..."] };
+                    header(brackets, &Self::default());
+                }
                 _ => {}
             }
         }
     }
+
+    fn has_values(&self) -> bool {
+        self.0.iter().any(|(_, value)| value.is_given())
+    }
+}
+
+/// What is written of keys that are not there.
+#[derive(Clone, Copy, PartialEq)]
+enum Absent {
+    Hidden,
+    Told,
 }
 
 impl Value {
+    /// Whether there is something to be written of it.
+    fn is_given(&self) -> bool {
+        match self {
+            Self::Absent | Self::AbsentTable { .. } => false,
+            Self::Table(table) => table.has_values(),
+            _ => true,
+        }
+    }
+
     fn in_line(&self) -> String {
         match self {
             // With a point or an exponent, as TOML tells numbers from whole ones; the shortest that gives the same bits.
@@ -71,10 +119,12 @@ impl Value {
                 format!("[{}]", list.iter().map(Self::in_line).collect::<Vec<_>>().join(", "))
             }
             Self::Table(table) => {
-                let pairs = table.0.iter().map(|(key, value)| format!("{key} = {}", value.in_line()));
+                let given = table.0.iter().filter(|(_, value)| value.is_given());
+                let pairs = given.map(|(key, value)| format!("{key} = {}", value.in_line()));
                 format!("{{ {} }}", pairs.collect::<Vec<_>>().join(", "))
             }
             Self::Tables(tables) => Self::List(tables.iter().cloned().map(Self::Table).collect()).in_line(),
+            Self::Absent | Self::AbsentTable { .. } => unreachable!("what is not given is not written"),
         }
     }
 
@@ -87,6 +137,7 @@ impl Value {
             Self::List(list) => Json::Array(list.iter().map(Self::to_json).collect()),
             Self::Table(table) => table.to_json(),
             Self::Tables(tables) => Json::Array(tables.iter().map(Resolved::to_json).collect()),
+            Self::Absent | Self::AbsentTable { .. } => Json::Null,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Scenes read key by key: [`Settings`] is a table whose keys are known because they are asked for.
 //!
 //! Promises: a key that nobody asks for is refused, with the nearest one that somebody does; every value that holds, given or not, is kept,
-//! so that the resolved scene tells all of them; a value of the wrong kind or out of its range is a fault at its line.
+//! so that the resolved scene tells all of them, and so is every key that may be given and was not; a value of the wrong kind or out of its range is a fault at its line.
 
 use super::resolved::{Resolved, Value};
 use crate::codes::Code;
@@ -78,6 +78,13 @@ impl<'t> Settings<'t> {
         self.resolved.0.push((key.to_owned(), value));
     }
 
+    /// Nothing, for a key that may be left away and was.
+    fn absent<T>(&mut self, key: &'static str, value: Value) -> Result<Option<T>, Box<Failure>> {
+        self.asked.push(key);
+        self.keep(key, value);
+        Ok(None)
+    }
+
     /// The failure for a key that is not there. Another that nobody asked for so far may be meant.
     fn missing(&self, key: &str) -> Box<Failure> {
         let Some(section) = &self.section else {
@@ -152,8 +159,7 @@ impl<'t> Settings<'t> {
         if self.has(key) {
             return self.number(key, None, allowed).map(Some);
         }
-        self.asked.push(key);
-        Ok(None)
+        self.absent(key, Value::Absent)
     }
 
     /// A whole number from `least` on.
@@ -179,8 +185,7 @@ impl<'t> Settings<'t> {
         if self.has(key) {
             return self.whole(key, None, least).map(Some);
         }
-        self.asked.push(key);
-        Ok(None)
+        self.absent(key, Value::Absent)
     }
 
     /// A whole number of 32 bits, from `least` on.
@@ -199,8 +204,7 @@ impl<'t> Settings<'t> {
     /// Text, if it is given.
     pub(crate) fn text(&mut self, key: &'static str) -> Result<Option<String>, Box<Failure>> {
         if !self.has(key) {
-            self.asked.push(key);
-            return Ok(None);
+            return self.absent(key, Value::Absent);
         }
         self.value(key, None, |entry| entry.text().map(str::to_owned), Value::Text).map(Some)
     }
@@ -269,8 +273,7 @@ impl<'t> Settings<'t> {
         if self.has(key) {
             return self.rows(key, wanted, true).map(Some);
         }
-        self.asked.push(key);
-        Ok(None)
+        self.absent(key, Value::Absent)
     }
 
     /// A vector, if it is given.
@@ -278,8 +281,7 @@ impl<'t> Settings<'t> {
         if self.has(key) {
             return self.vector(key, None).map(Some);
         }
-        self.asked.push(key);
-        Ok(None)
+        self.absent(key, Value::Absent)
     }
 
     /// Two whole numbers from `least` to `most`.
@@ -386,8 +388,7 @@ impl<'t> Settings<'t> {
         if self.has(key) {
             return self.table(key, read).map(Some);
         }
-        self.asked.push(key);
-        Ok(None)
+        self.absent(key, Value::AbsentTable { many: false })
     }
 
     /// An array of tables, if it is there.
@@ -396,7 +397,10 @@ impl<'t> Settings<'t> {
         key: &'static str,
         mut read: impl FnMut(&mut Settings<'t>) -> Result<T, Box<Failure>>,
     ) -> Result<Option<Vec<T>>, Box<Failure>> {
-        let Some(entry) = self.entry(key) else { return Ok(None) };
+        if !self.has(key) {
+            return self.absent(key, Value::AbsentTable { many: true });
+        }
+        let entry = self.entry(key).expect("it is there");
         let (mut values, mut tables) = (Vec::new(), Vec::new());
         for (k, element) in entry.list()?.iter().enumerate() {
             let path = format!("{}{key}[{k}].", self.path);
@@ -450,6 +454,21 @@ mod tests {
         assert!(text.contains("pictures = false") && text.contains("scale = 1.0"), "{text}");
         let (again, twice) = read(&text).unwrap();
         assert_eq!((again, twice), (values, resolved));
+    }
+
+    #[test]
+    fn keys_that_are_not_given_are_told_as_comments() {
+        let (_, resolved) = read("[time]\nstep = 0.1\n").unwrap();
+        let told = resolved.to_toml_with_absent_keys();
+        for line in ["step = 0.1\n# steps = ...\n", "\n# [[parts]] ...\n"] {
+            assert!(told.contains(line), "{told}");
+        }
+        assert_eq!(read(&told).unwrap().1, resolved);
+        let lines = |text: &str| -> Vec<String> {
+            text.lines().filter(|it| !it.is_empty() && !it.starts_with('#')).map(str::to_owned).collect()
+        };
+        assert_eq!(lines(&told), lines(&resolved.to_toml()), "the same but for those");
+        assert!(resolved.to_json()["time"].get("steps").is_none());
     }
 
     #[test]
