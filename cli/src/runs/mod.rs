@@ -35,6 +35,7 @@ pub(crate) use failed_step::StepFailure;
 pub(crate) use folder::{RunFolder, Start};
 pub(crate) use past::PastRun;
 pub(crate) use request::{Request, ToRun};
+pub(crate) use stats::phase_seconds;
 pub(crate) use words::{Words, resume_line};
 
 use crate::failure::Failure;

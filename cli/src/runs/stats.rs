@@ -5,10 +5,11 @@
 
 use crate::failure::Failure;
 use crate::output::{cannot_write, write_whole};
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 use std::fs::{self, File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use welter_tracking::tracker::PhaseSeconds;
 
 /// The name of the file.
 pub(super) const NAME: &str = "stats.jsonl";
@@ -28,6 +29,19 @@ pub(crate) struct Stats {
     /// Length of the file in bytes.
     length: u64,
     lines: Vec<Line>,
+}
+
+/// The seconds of a step of a tracker, by phase.
+pub(crate) fn phase_seconds(seconds: &PhaseSeconds) -> Value {
+    json!({
+        "improvement": seconds.improvement,
+        "topology": seconds.topology,
+        "velocity": seconds.velocity,
+        "collisions": seconds.collisions,
+        "compaction": seconds.compaction,
+        "check": seconds.check,
+        "total": seconds.total,
+    })
 }
 
 /// The lines of a file that are whole, from the first on.

@@ -28,7 +28,7 @@ use welter_meshing::surface::measure::signed_volume;
 use welter_tracking::flows::{NoVelocity, VelocityField};
 
 use super::{MarkerError, MarkerParameters, MarkerState, fill};
-use crate::smoke::{Emission, EmissionError, EmittedShape, Release};
+use crate::smoke::{Emission, EmissionError, EmittedShape, Release, next_release};
 
 /// How many particles a thread takes at once at least.
 const PIECE: usize = 256;
@@ -169,21 +169,13 @@ impl MarkerSimulation {
         let mut report = MarkerStep::default();
         while state.time < end {
             monitor.check()?;
-            let next = self.next_release(state.time, end).unwrap_or(end);
+            let next = next_release(&self.emissions, state.time, end).unwrap_or(end);
             self.carry(&mut state, flow, next)?;
             report.releases.extend(self.release(&mut state, monitor)?);
         }
         report.particles = state.positions.len();
         self.state = state;
         Ok(report)
-    }
-
-    /// The time of the first release after a time, up to an end.
-    fn next_release(&self, time: f64, end: f64) -> Option<f64> {
-        let first = |emission: &Emission| {
-            emission.schedule.within(time.next_up(), end.next_up()).next().map(|release| release.time)
-        };
-        self.emissions.iter().filter_map(first).reduce(f64::min)
     }
 
     /// Carries what is there to a time.

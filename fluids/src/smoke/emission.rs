@@ -143,6 +143,14 @@ pub enum EmissionError {
     NotClosed(ClosedOrientedError),
 }
 
+/// The time of the first release of any emission after a time, up to an end.
+pub(crate) fn next_release(emissions: &[Emission], time: f64, end: f64) -> Option<f64> {
+    let first = |emission: &Emission| {
+        emission.schedule.within(time.next_up(), end.next_up()).next().map(|release| release.time)
+    };
+    emissions.iter().filter_map(first).reduce(f64::min)
+}
+
 impl Emission {
     /// Whether this is an emission of smoke.
     ///

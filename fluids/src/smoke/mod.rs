@@ -22,6 +22,7 @@ mod schedule;
 mod simulation;
 mod state;
 
+pub(crate) use emission::next_release;
 pub use emission::{Emission, EmissionError, EmittedShape, Joining};
 pub use error::{SmokeError, SmokeParameterError};
 pub use fog_layer::{ClosedSmoke, FogLayer, FogLayerError};

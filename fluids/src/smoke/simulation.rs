@@ -40,6 +40,7 @@ use welter_tracking::surface::{Attribute, MovingSurface, Rule};
 use glam::DVec3;
 
 use super::carrier::Carrier;
+use super::emission::next_release;
 use super::{
     Emission, EmittedShape, Joining, OverBudget, Refusal, Release, Released, SmokeError, SmokeParameterError,
     SmokeParameters, SmokeState, SmokeStep,
@@ -230,7 +231,7 @@ impl SmokeSimulation {
         monitor: &Monitor<'_>,
     ) -> Result<(), SmokeError> {
         while self.time < end {
-            let next = self.next_release(end).unwrap_or(end);
+            let next = next_release(&self.emissions, self.time, end).unwrap_or(end);
             self.carry(flow, next, report, monitor)?;
             self.release(next, report, monitor)?;
         }
@@ -238,14 +239,6 @@ impl SmokeSimulation {
             self.coarsen()?;
         }
         Ok(())
-    }
-
-    /// The time of the first release after now, up to an end.
-    fn next_release(&self, end: f64) -> Option<f64> {
-        let first = |emission: &Emission| {
-            emission.schedule.within(self.time.next_up(), end.next_up()).next().map(|release| release.time)
-        };
-        self.emissions.iter().filter_map(first).reduce(f64::min)
     }
 
     /// Carries what is there to a time, in parts if collisions ask for it.

@@ -138,15 +138,8 @@ pub fn render(
     let (planes, counts) = studio.draw(monitor)?;
     let pixels_end = start.elapsed().as_secs_f64();
 
-    let composite = finished(&planes, parameters, &scene.light, &scene.medium);
-    let total = start.elapsed().as_secs_f64();
-    let seconds = RenderSeconds {
-        shadow: shadow_end,
-        projection: projection_end - shadow_end,
-        pixels: pixels_end - projection_end,
-        composition: total - pixels_end,
-        total,
-    };
+    let picture = Picture::of(planes, parameters, &scene.light, &scene.medium);
+    let seconds = RenderSeconds::of([shadow_end, projection_end, pixels_end, start.elapsed().as_secs_f64()]);
     let report = RenderReport {
         pieces: studio.pieces.len(),
         crossings: counts.crossings,
@@ -156,25 +149,36 @@ pub fn render(
         shadow_size,
         seconds,
     };
-    let (alpha, scatter, age, backdrop) = (planes.alpha, planes.scatter, planes.age, planes.backdrop);
-    Ok((Picture { alpha, scatter, age, backdrop, composite }, report))
+    Ok((picture, report))
 }
 
-/// The composite of planes, blurred by age if asked for.
-pub(super) fn finished(
-    planes: &Planes,
-    parameters: &RenderParameters,
-    light: &Light,
-    medium: &Medium,
-) -> Image<[f32; 3]> {
-    let over = |alpha: &Image<f32>, scatter: &Image<f32>| {
-        composite::composite(alpha, scatter, &planes.backdrop, light, medium)
-    };
-    match &parameters.age_blur {
-        None => over(&planes.alpha, &planes.scatter),
-        Some(blur) => {
-            let (alpha, scatter) = blur::blur(&planes.alpha, &planes.scatter, &planes.age, blur);
-            over(&alpha, &scatter)
+impl Picture {
+    /// The planes with their composite, blurred by age if asked for.
+    pub(super) fn of(planes: Planes, parameters: &RenderParameters, light: &Light, medium: &Medium) -> Self {
+        let Planes { alpha, scatter, age, backdrop } = planes;
+        let over = |alpha: &Image<f32>, scatter: &Image<f32>| {
+            composite::composite(alpha, scatter, &backdrop, light, medium)
+        };
+        let composite = match &parameters.age_blur {
+            None => over(&alpha, &scatter),
+            Some(blur) => {
+                let (alpha, scatter) = blur::blur(&alpha, &scatter, &age, blur);
+                over(&alpha, &scatter)
+            }
+        };
+        Self { alpha, scatter, age, backdrop, composite }
+    }
+}
+
+impl RenderSeconds {
+    /// From the times at which the shadow, the projection, the pixels and all were done, since the beginning.
+    pub(super) fn of([shadow, projection, pixels, total]: [f64; 4]) -> Self {
+        Self {
+            shadow,
+            projection: projection - shadow,
+            pixels: pixels - projection,
+            composition: total - pixels,
+            total,
         }
     }
 }

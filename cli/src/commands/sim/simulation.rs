@@ -8,7 +8,7 @@ use crate::commands::track::tracker_failure;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::runs::state::{NoState, Reader, Writer};
-use crate::runs::{Frame, PictureProblem, Pictures, Simulation, StepFailure, StepProblem};
+use crate::runs::{Frame, PictureProblem, Pictures, Simulation, StepFailure, StepProblem, phase_seconds};
 use serde_json::{Map, Value, json};
 use welter_fluids::smoke::{
     EmittedShape, Refusal, Released, SmokeError, SmokeSimulation, SmokeState, SmokeStep,
@@ -171,15 +171,7 @@ fn done(step: &SmokeStep) -> Map<String, Value> {
             "rigid_zones": c.rigid_zones,
             "dt_halvings": c.shortenings,
         },
-        "seconds": {
-            "improvement": s.improvement,
-            "topology": s.topology,
-            "velocity": s.velocity,
-            "collisions": s.collisions,
-            "compaction": s.compaction,
-            "check": s.check,
-            "total": s.total,
-        },
+        "seconds": phase_seconds(s),
     });
     let Value::Object(done) = done else { unreachable!("an object was written") };
     done

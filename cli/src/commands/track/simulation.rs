@@ -6,7 +6,7 @@ use super::summary::summary;
 use crate::codes::Code;
 use crate::failure::Failure;
 use crate::runs::state::{NoState, Reader, Writer};
-use crate::runs::{Frame, Simulation, StepProblem};
+use crate::runs::{Frame, Simulation, StepProblem, phase_seconds};
 use serde_json::{Map, Value, json};
 use welter_meshing::Monitor;
 use welter_meshing::spatial::{Bvh, Sharing};
@@ -124,15 +124,7 @@ impl Done {
                 "resting_vertices": c.resting_vertices,
                 "dt_halvings": c.shortenings,
             },
-            "seconds": {
-                "improvement": s.improvement,
-                "topology": s.topology,
-                "velocity": s.velocity,
-                "collisions": s.collisions,
-                "compaction": s.compaction,
-                "check": s.check,
-                "total": s.total,
-            },
+            "seconds": phase_seconds(s),
         });
         let Value::Object(done) = done else { unreachable!("an object was written") };
         done

@@ -11,7 +11,7 @@ use welter_meshing::{Cancelled, Monitor};
 
 use super::super::camera::View;
 use super::super::light_space::Lattice;
-use super::super::picture::{finished, scale_of};
+use super::super::picture::scale_of;
 use super::super::pixels::Planes;
 use super::super::raster::Window;
 use super::super::resolve::Stretch;
@@ -111,18 +111,10 @@ pub fn render_particles(
     let (planes, counts) = easel.draw(scene.background.map(|c| c as f32), monitor)?;
     let pixels_end = start.elapsed().as_secs_f64();
 
-    let composite = finished(&planes, parameters, &scene.light, &scene.medium);
-    let total = start.elapsed().as_secs_f64();
-    let seconds = RenderSeconds {
-        shadow: shadow_end,
-        projection: projection_end - shadow_end,
-        pixels: pixels_end - projection_end,
-        composition: total - pixels_end,
-        total,
-    };
+    let picture = Picture::of(planes, parameters, &scene.light, &scene.medium);
+    let seconds = RenderSeconds::of([shadow_end, projection_end, pixels_end, start.elapsed().as_secs_f64()]);
     let report = ParticleReport { in_view: easel.discs.len(), shadow_size, seconds, ..counts };
-    let Planes { alpha, scatter, age, backdrop } = planes;
-    Ok((Picture { alpha, scatter, age, backdrop, composite }, report))
+    Ok((picture, report))
 }
 
 /// The shadow texture of particles in scaled coordinates. Densities add up, as they do along rays.
