@@ -51,6 +51,8 @@ fn the_result_has_every_key_of_the_contract() {
     assert_eq!(lines.len(), 7);
     let releases: Vec<usize> = lines.iter().map(|line| line["releases"].as_array().unwrap().len()).collect();
     assert_eq!(releases, [1, 0, 0, 0, 1, 0, 0]);
+    let released = |k: usize| lines[k]["released_volume"].to_string();
+    assert_eq!((released(1), released(5)), ("0.0".to_owned(), "0.0".to_owned()), "nothing is not -0");
     for frame in 0..4 {
         let bytes = bench.read(&format!("run/paraview/surface_{frame:04}.vtp"));
         let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4000)]).into_owned();

@@ -67,14 +67,14 @@ impl<'s> Smoke<'s> {
     fn facts(&self, releases: &[Released]) -> Map<String, Value> {
         let mesh = self.simulation.mesh();
         let topology = Topology::of(&mesh);
-        let released: f64 = releases
+        let released = releases
             .iter()
             .filter(|release| release.refusal.is_none())
             .filter_map(|release| match &release.union {
                 Some(union) => Some(union.added_volume),
                 None => self.volumes[release.emission],
             })
-            .sum();
+            .sum::<f64>();
         let facts = json!({
             "vertices": mesh.positions().len(),
             "triangles": mesh.triangles().len(),
@@ -83,7 +83,8 @@ impl<'s> Smoke<'s> {
             "area": area(&mesh),
             "reference_length": self.simulation.reference_length(),
             "releases": releases.iter().map(told).collect::<Vec<_>>(),
-            "released_volume": released,
+            // A sum of nothing is -0.
+            "released_volume": released + 0.0,
         });
         let Value::Object(facts) = facts else { unreachable!("an object was written") };
         facts

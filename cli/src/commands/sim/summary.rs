@@ -22,7 +22,7 @@ pub(super) fn summary(lines: &[&Value]) -> Map<String, Value> {
         .collect();
     // Of the steps between frames; the initial frame has none.
     let made = frames.saturating_sub(1);
-    let sum = |path: &str| lines.iter().filter_map(|line| line.pointer(path)?.as_f64()).sum::<f64>();
+    let sum = |path: &str| lines.iter().filter_map(|line| line.pointer(path)?.as_f64()).sum::<f64>() + 0.0;
     let per_frame = |key: &str| (made > 0).then(|| sum(&format!("/seconds/{key}")) / made as f64);
     let mut seconds: Map<String, Value> =
         PHASES.iter().map(|key| ((*key).to_owned(), json!(per_frame(key)))).collect();
@@ -47,7 +47,7 @@ pub(super) fn summary(lines: &[&Value]) -> Map<String, Value> {
     let refused = |reason: &str| releases().filter(|release| release["refused"]["reason"] == reason).count();
     let united = |outcome: &str| releases().filter(|release| release["union"]["outcome"] == outcome).count();
     let shifted = releases().filter(|release| release["union"]["shifts"].as_u64() > Some(0)).count();
-    let released: f64 = lines.iter().filter_map(|line| number(&line, "released_volume")).sum();
+    let released = lines.iter().filter_map(|line| number(&line, "released_volume")).sum::<f64>() + 0.0;
     let volume = of("volume").as_f64();
     let error = volume.map(|volume| (volume - released) / released).filter(|error| error.is_finite());
     let most = lines.iter().filter_map(|line| line["triangles"].as_u64()).max();

@@ -33,7 +33,7 @@ pub(super) fn summary(scene: &TrackScene, lines: &[&Value], end: Option<&TriMesh
         Value::Object(keys.iter().map(|key| ((*key).to_owned(), json!(sum(key)))).collect())
     };
     let mean = |key: &&str| {
-        let sum: f64 = lines.iter().filter_map(|line| line["seconds"][*key].as_f64()).sum();
+        let sum = lines.iter().filter_map(|line| line["seconds"][*key].as_f64()).sum::<f64>() + 0.0;
         (steps > 0).then(|| sum / steps as f64)
     };
     let seconds: Map<String, Value> =
