@@ -1,8 +1,8 @@
 //! The command line: global options and the list of commands.
 
 use crate::commands::{
-    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, report, shape,
-    sim, track,
+    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, new, render, replay, report,
+    shape, sim, track,
 };
 use crate::progress::ProgressMode;
 use clap::{Parser, Subcommand, value_parser};
@@ -29,7 +29,8 @@ First steps:
   welter check --json *.obj         the same for scripts
   welter mesh part.stl -o part.vtu  its volume as hexahedra; where it overlaps itself the sheets stay apart
   welter track scene.toml -o run    a surface that moves, merges and parts, without ever intersecting itself
-  welter sim plume.toml -o run      smoke that is released over time and carried by a flow";
+  welter sim plume.toml -o run      smoke that is released over time and carried by a flow
+  welter new plume                  writes plume.toml, a scene to begin with; `welter new --list` names them";
 
 /// Options of every command.
 #[derive(clap::Args, Clone, Debug)]
@@ -67,6 +68,7 @@ pub(crate) enum Command {
     Mesh(mesh::Args),
     Track(track::Args),
     Sim(sim::Args),
+    New(new::Args),
     Check(check::Args),
     Ccd(ccd::Args),
     Convert(convert::Args),

@@ -64,6 +64,8 @@ codes! {
         "a surface needs at least one visible character, and time and memory for the last";
     NoSuchCells = "W2009", 2, "no cells of this size",
         "the nodes of a grid must have exact coordinates that can be numbered";
+    UnknownScene = "W2010", 2, "no such scene",
+        "only the scenes of `welter new --list` come with the program";
 
     IndexOutOfRange = "W3010", 3, "vertex index out of range",
         "a corner that does not exist has no position";

@@ -3,8 +3,8 @@
 use crate::args::{Cli, Command};
 use crate::codes::Code;
 use crate::commands::{
-    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, render, replay, report, shape,
-    sim, track,
+    ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, new, render, replay, report,
+    shape, sim, track,
 };
 use crate::console::{Console, print_error, write_json_once};
 use crate::failure::Failure;
@@ -73,6 +73,7 @@ fn run(cli: Cli) -> Outcome {
         Command::Ccd(args) => ccd::run(&args, &run),
         Command::Render(args) => render::run(&args, &run),
         Command::Shape(args) => shape::run(&args, &run),
+        Command::New(args) => new::run(&args, &run),
         Command::Isosurface(args) => isosurface::run(&args, &run),
         Command::Mesh(args) => mesh::run(&args, &run),
         Command::Track(args) => track::run(&args, &run),

@@ -3,7 +3,7 @@
 use crate::harness::Bench;
 
 /// Every source file of these tests: where codes are tried.
-const TESTS: [&str; 16] = [
+const TESTS: [&str; 17] = [
     include_str!("bad_input.rs"),
     include_str!("ccd.rs"),
     include_str!("check.rs"),
@@ -14,6 +14,7 @@ const TESTS: [&str; 16] = [
     include_str!("isosurface.rs"),
     include_str!("mesh.rs"),
     include_str!("mesh_of_curves.rs"),
+    include_str!("new.rs"),
     include_str!("outputs.rs"),
     include_str!("render.rs"),
     include_str!("shape.rs"),

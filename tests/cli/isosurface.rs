@@ -8,7 +8,7 @@ const BALL: &str = "[grid]\ncells = 16\n[field]\nkind = \"ball\"\nradius = 1\n";
 
 /// The scenes that are shipped.
 fn examples() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/isosurface")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/isosurface")
 }
 
 fn number(object: &Value, key: &str) -> f64 {

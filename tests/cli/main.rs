@@ -16,6 +16,7 @@ mod interrupt;
 mod isosurface;
 mod mesh;
 mod mesh_of_curves;
+mod new;
 mod outputs;
 mod render;
 mod report;

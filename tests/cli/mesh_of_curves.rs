@@ -165,7 +165,7 @@ fn triangles_and_every_format_hold_the_same_area() {
 #[test]
 fn the_example_is_one_sheet_over_itself() {
     let bench = Bench::new();
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/mesh/band.obj");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/mesh/band.obj");
     bench.file("band.obj", std::fs::read(file).unwrap());
     let line = "mesh band.obj -o band.vtu --picture band.png --picture-size 320x240 --force -r 30";
     let (object, ran) = bench.json(line);

@@ -71,7 +71,7 @@ fn the_result_has_every_key_of_the_contract() {
 #[test]
 fn the_examples_that_are_shipped_work() {
     let bench = Bench::new();
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/sim");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/sim");
     let mut scenes: Vec<PathBuf> =
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     scenes.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));

@@ -10,7 +10,7 @@ pub(crate) const BALL: &str = "exact = \"none\"\n[surface]\nshape = \"sphere\"\n
 
 /// The scenes that are shipped.
 fn examples() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/track");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/track");
     let mut scenes: Vec<PathBuf> =
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     scenes.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));

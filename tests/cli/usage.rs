@@ -10,6 +10,7 @@ const COMMANDS: &[&str] = &[
     "mesh",
     "track",
     "sim",
+    "new",
     "check",
     "ccd",
     "convert",

@@ -9,6 +9,7 @@ pub(crate) mod doctor;
 pub(crate) mod info;
 pub(crate) mod isosurface;
 pub(crate) mod mesh;
+pub(crate) mod new;
 pub(crate) mod render;
 pub(crate) mod replay;
 pub(crate) mod report;
