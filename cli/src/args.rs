@@ -2,7 +2,7 @@
 
 use crate::commands::{
     ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, new, render, replay, report,
-    shape, sim, track,
+    shape, sim, track, view,
 };
 use crate::progress::ProgressMode;
 use clap::{Parser, Subcommand, value_parser};
@@ -30,6 +30,7 @@ First steps:
   welter mesh part.stl -o part.vtu  its volume as hexahedra; where it overlaps itself the sheets stay apart
   welter track scene.toml -o run    a surface that moves, merges and parts, without ever intersecting itself
   welter sim plume.toml -o run      smoke that is released over time and carried by a flow
+  welter view run                   its frames in a browser, to turn and to play
   welter new plume                  writes plume.toml, a scene to begin with; `welter new --list` names them";
 
 /// Options of every command.
@@ -74,6 +75,7 @@ pub(crate) enum Command {
     Convert(convert::Args),
     Info(info::Args),
     Render(render::Args),
+    View(view::Args),
     Replay(replay::Args),
     Report(report::Args),
     Doctor(doctor::Args),

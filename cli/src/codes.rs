@@ -128,6 +128,7 @@ codes! {
         "which of them belong together is found by trying, and there are too many ways to try";
     OverCells = "W6004", 6, "more cells than allowed",
         "time and memory grow with the number of cells";
+    PageTooLong = "W6005", 6, "page too long", "browsers do not open such pages";
 
     FolderMissing = "W7001", 7, "output folder missing", "the result could not be written after the work";
     NotWritable = "W7002", 7, "output not writable", "the result could not be written after the work";

@@ -40,6 +40,8 @@ impl State {
 /// Whether somebody is asked to stop.
 static ASKING: AtomicBool = AtomicBool::new(false);
 static ASKED: AtomicBool = AtomicBool::new(false);
+/// Whether there is something to be said to who asked.
+static TOLD: AtomicBool = AtomicBool::new(true);
 
 /// As long as it lives, the first Ctrl-C sets a flag.
 #[derive(Debug)]
@@ -48,7 +50,17 @@ pub(crate) struct Asking(());
 impl Asking {
     /// There is one at a time.
     pub(crate) fn begin() -> Self {
+        Self::with(true)
+    }
+
+    /// For what goes on until Ctrl-C, which is its end and no interruption.
+    pub(crate) fn to_leave() -> Self {
+        Self::with(false)
+    }
+
+    fn with(told: bool) -> Self {
         ASKED.store(false, Ordering::Release);
+        TOLD.store(told, Ordering::Release);
         ASKING.store(true, Ordering::Release);
         Self(())
     }
@@ -76,7 +88,9 @@ pub(crate) fn end_begins() {
 pub(crate) fn install(json: bool) {
     let _ = ctrlc::set_handler(move || {
         if ASKING.load(Ordering::Acquire) && !ASKED.swap(true, Ordering::AcqRel) {
-            let _ = Stream::Err.write("note: stopping at a checkpoint; Ctrl-C again ends at once\n");
+            if TOLD.load(Ordering::Acquire) {
+                let _ = Stream::Err.write("note: stopping at a checkpoint; Ctrl-C again ends at once\n");
+            }
             return;
         }
         std::thread::spawn(|| {

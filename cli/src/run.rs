@@ -4,7 +4,7 @@ use crate::args::{Cli, Command};
 use crate::codes::Code;
 use crate::commands::{
     ccd, check, completions, convert, demo, doctor, info, isosurface, mesh, new, render, replay, report,
-    shape, sim, track,
+    shape, sim, track, view,
 };
 use crate::console::{Console, print_error, write_json_once};
 use crate::failure::Failure;
@@ -72,6 +72,7 @@ fn run(cli: Cli) -> Outcome {
         Command::Check(args) => check::run(&args, &run),
         Command::Ccd(args) => ccd::run(&args, &run),
         Command::Render(args) => render::run(&args, &run),
+        Command::View(args) => view::run(&args, &run),
         Command::Shape(args) => shape::run(&args, &run),
         Command::New(args) => new::run(&args, &run),
         Command::Isosurface(args) => isosurface::run(&args, &run),

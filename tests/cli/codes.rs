@@ -3,7 +3,7 @@
 use crate::harness::Bench;
 
 /// Every source file of these tests: where codes are tried.
-const TESTS: [&str; 17] = [
+const TESTS: [&str; 18] = [
     include_str!("bad_input.rs"),
     include_str!("ccd.rs"),
     include_str!("check.rs"),
@@ -21,13 +21,15 @@ const TESTS: [&str; 17] = [
     include_str!("track.rs"),
     include_str!("track_runs.rs"),
     include_str!("usage.rs"),
+    include_str!("view.rs"),
 ];
 
 /// Codes that no command line can bring about on a healthy machine, and where they are tried instead.
-const ELSEWHERE: [&str; 4] = [
+const ELSEWHERE: [&str; 5] = [
     "W1002", // a wrong answer of a predicate: unit test of `doctor`
     "W4009", // a disk that does not deliver: unit test of `input`
     "W6002", // more than 2^32 elements: unit test of `input`
+    "W6005", // a quarter of a gigabyte of frames: unit test of `view`
     "W9003", // a wrong mesh: unit test of `mesh`
 ];
 

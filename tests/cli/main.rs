@@ -25,3 +25,4 @@ mod sim;
 mod track;
 mod track_runs;
 mod usage;
+mod view;

@@ -16,6 +16,7 @@ const COMMANDS: &[&str] = &[
     "convert",
     "info",
     "render",
+    "view",
     "replay",
     "report",
     "doctor",

@@ -16,3 +16,4 @@ pub(crate) mod report;
 pub(crate) mod shape;
 pub(crate) mod sim;
 pub(crate) mod track;
+pub(crate) mod view;
