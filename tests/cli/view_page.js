@@ -41,7 +41,7 @@ const hash = (image) => image.data.reduce((sum, byte) => (sum * 31 + byte) >>> 0
 (async () => {
   const frames = [];
   for (let k = 0; k < meta.frames.length; k++) {
-    const frame = await Viewer.read(data.get(`data-${k}`));
+    const frame = await Viewer.read(data.get(`data-${k}`), meta.frames[k]);
     const pixels = new Uint8ClampedArray(4 * 320 * 240), options = { edges: false, flat: false };
     Viewer.draw(frame, Viewer.camera(meta), 320, 240, pixels, options);
     let covered = 0;

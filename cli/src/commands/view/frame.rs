@@ -1,6 +1,6 @@
 //! A surface as the bytes that the page draws: [`pack`].
 //!
-//! Positions are steps of a cube around all frames, 2^20 along its side, which is the unit of the page. Numbers are differences to the one before, zigzag coded, in planes of bytes
+//! Positions are steps of a cube around the frame, 2^20 along its side. Numbers are differences to the one before, zigzag coded, in planes of bytes
 //! (all lowest bytes, then all next ones), and all of it is deflated: `viewer.js` has the inverse.
 
 use flate2::Compression;
@@ -12,7 +12,7 @@ use welter_meshing::surface::TriangleSoup;
 /// Steps along the side of the cube. Its coordinates take three bytes.
 const STEPS: f64 = (1 << 20) as f64;
 
-/// The cube that all positions are in.
+/// The cube that the positions of a frame are in, or all of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cube {
     min: DVec3,
@@ -22,12 +22,36 @@ pub(super) struct Cube {
     pub(super) extent: DVec3,
 }
 
+/// Where a cube lies in another one, in sides of that.
+pub(super) struct Place {
+    pub(super) corner: DVec3,
+    pub(super) side: f64,
+}
+
 impl Cube {
     /// Around a box.
     pub(super) fn around(min: DVec3, max: DVec3) -> Self {
         let half = 0.5 * max - 0.5 * min;
         let half_side = if half.max_element() > 0.0 { half.max_element() } else { 1.0 };
         Self { min, half_side, extent: half / half_side }
+    }
+
+    /// Around positions.
+    pub(super) fn of(positions: &[DVec3]) -> Self {
+        let min = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
+        Self::around(min, positions.iter().copied().reduce(DVec3::max).unwrap_or_default())
+    }
+
+    /// Around what is in some others; none if there are none.
+    pub(super) fn around_all<'c>(cubes: impl Iterator<Item = &'c Self> + Clone) -> Option<Self> {
+        let min = cubes.clone().map(|cube| cube.min).reduce(DVec3::min)?;
+        let max = cubes.map(|cube| cube.min + cube.half_side * cube.extent + cube.half_side * cube.extent);
+        Some(Self::around(min, max.reduce(DVec3::max)?))
+    }
+
+    pub(super) fn within(&self, other: &Self) -> Place {
+        let corner = (0.5 * self.min - 0.5 * other.min) / other.half_side;
+        Place { corner, side: self.half_side / other.half_side }
     }
 
     /// The nearest steps.
@@ -113,6 +137,18 @@ mod tests {
         let corners: Vec<u32> = numbers(&bytes[39..], 9, 4).into_iter().map(i32::cast_unsigned).collect();
         assert_eq!(corners, soup.triangles.concat());
         assert_eq!(bytes[39 + 36..], [1, 2, 3, 4, 5, 6, 7, 8, 9]);
+    }
+
+    #[test]
+    fn cubes_have_places_in_one_around_them() {
+        let cubes = [[0.0, 4.0], [-4.0, -2.0], [1.0, 1.0]]
+            .map(|[from, to]| Cube::around(DVec3::splat(from), DVec3::new(to, to, from)));
+        let all = Cube::around_all(cubes.iter()).unwrap();
+        assert_eq!((all.half_side, all.extent), (4.0, DVec3::new(1.0, 1.0, 0.625)));
+        let places = cubes.map(|cube| cube.within(&all));
+        assert_eq!(places.each_ref().map(|place| place.corner.x), [0.5, 0.0, 0.625]);
+        assert_eq!(places[1].side, 0.25);
+        assert!(Cube::around_all([].iter()).is_none());
     }
 
     #[test]

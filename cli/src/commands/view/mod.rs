@@ -18,12 +18,10 @@ use crate::sequence::Pattern;
 use crate::surface_file::refuse_standard_output_with_json;
 use crate::volume_input::{VolumeInput, volume_format_of};
 use frame::{Cube, pack};
-use page::{Show, page};
-use rayon::prelude::*;
+use page::{Framed, Show, page};
 use serde_json::json;
 use server::Server;
 use std::path::{Path, PathBuf};
-use welter_meshing::DVec3;
 use welter_meshing::surface::{TriMesh, TriangleSoup};
 
 /// Look at a surface, or at the frames of a run, in a browser
@@ -77,28 +75,20 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     };
     let server = if output.is_none() { Some(Server::open(args.port)?) } else { None };
     let mut seconds = Seconds::default();
-    let soups = console.stage(&mut seconds, "reading", || {
-        files
-            .iter()
-            .map(|(name, path)| Ok((name, read(path, args, run)?)))
-            .collect::<Result<Vec<_>, Box<Failure>>>()
-    })?;
-    let (triangles, vertices) = soups.iter().fold((0, 0), |(triangles, vertices), (_, soup)| {
-        (triangles.max(soup.triangles.len()), vertices.max(soup.positions.len()))
-    });
-    let used = || soups.iter().flat_map(|(_, soup)| &soup.positions);
-    let min = used().copied().reduce(DVec3::min).unwrap_or_default();
-    let max = used().copied().reduce(DVec3::max).unwrap_or_default();
-    let cube = Cube::around(min, max);
-    let frames: Vec<(String, Vec<u8>)> = console.stage(&mut seconds, "packing", || {
-        soups.par_iter().map(|(name, soup)| ((*name).clone(), pack(soup, &cube))).collect()
-    });
-    drop(soups);
-    let bytes: usize = frames.iter().map(|(_, bytes)| bytes.len().div_ceil(3) * 4).sum();
-    refuse_longer(bytes, LONGEST, args)?;
+    let (mut triangles, mut vertices, mut length, mut frames) = (0, 0, 0, Vec::new());
+    for (at, (name, path)) in files.iter().enumerate() {
+        let soup = console.stage(&mut seconds, "reading", || read(path, args, run))?;
+        let cube = Cube::of(&soup.positions);
+        let bytes = console.stage(&mut seconds, "packing", || pack(&soup, &cube));
+        (triangles, vertices) = (triangles.max(soup.triangles.len()), vertices.max(soup.positions.len()));
+        // Four letters for three bytes.
+        length += bytes.len().div_ceil(3) * 4;
+        refuse_longer(length, LONGEST, [at + 1, files.len()], args)?;
+        frames.push(Framed { name: name.clone(), cube, bytes });
+    }
     let up = if args.up == UpAxis::Y { "y" } else { "z" };
     let title = shown(&args.input);
-    let page = page(&Show { title: &title, frames: &frames, cube, up });
+    let page = page(&Show { title: &title, frames: &frames, up });
     console.progress.clear();
     let mut object = json!({
         "input": title,
@@ -129,17 +119,25 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     Ok(0)
 }
 
-/// Refuses pages that are longer than so many bytes.
-fn refuse_longer(bytes: usize, most: usize, args: &Args) -> Result<(), Box<Failure>> {
+/// Refuses pages that are longer than so many bytes, once so many frames of all are.
+fn refuse_longer(
+    bytes: usize,
+    most: usize,
+    [done, all]: [usize; 2],
+    args: &Args,
+) -> Result<(), Box<Failure>> {
     if bytes <= most {
         return Ok(());
     }
-    let every = args.every as usize * bytes.div_ceil(most);
-    let failure =
-        Failure::new(Code::PageTooLong, format!("the page would take {} bytes", grouped(bytes as u64)));
-    Err(failure
-        .subject(shown(&args.input))
-        .help(format!("welter view {} --every {every}", shell_word(&args.input))))
+    let whole = (bytes / done).saturating_mul(all).max(bytes);
+    let what = format!("the page would take some {} bytes", grouped(whole as u64));
+    let failure = Failure::new(Code::PageTooLong, what).subject(shown(&args.input));
+    let every = args.every as usize * whole.div_ceil(most);
+    Err(if all == 1 {
+        failure.help(format!("welter render {} -o picture.png", shell_word(&args.input)))
+    } else {
+        failure.help(format!("welter view {} --every {every}", shell_word(&args.input)))
+    })
 }
 
 /// The names and files of all frames that are shown.
@@ -200,8 +198,10 @@ mod tests {
     #[test]
     fn long_pages_are_refused_with_what_would_do() {
         let line = Line::parse_from(["view", "run", "--every", "2"]);
-        assert!(refuse_longer(100, 100, &line.args).is_ok());
-        let failure = refuse_longer(250, 100, &line.args).unwrap_err();
-        assert_eq!((failure.code.id(), failure.help.as_str()), ("W6005", "welter view run --every 6"));
+        assert!(refuse_longer(100, 100, [1, 3], &line.args).is_ok());
+        let told = |bytes, frames| refuse_longer(bytes, 100, frames, &line.args).unwrap_err();
+        let failure = told(150, [1, 3]);
+        assert_eq!((failure.code.id(), failure.help.as_str()), ("W6005", "welter view run --every 10"));
+        assert_eq!(told(150, [1, 1]).help, "welter render run -o picture.png");
     }
 }

@@ -16,24 +16,33 @@ footer{padding:.4rem .8rem;display:flex;gap:1rem;flex-wrap:wrap;align-items:cent
 #controls{display:flex;gap:.6rem;flex:1;min-width:16rem}#controls[hidden]{display:none}\
 input[type=range]{flex:1}.help{opacity:.7}";
 
+/// A frame, packed.
+pub(super) struct Framed {
+    pub(super) name: String,
+    pub(super) cube: Cube,
+    pub(super) bytes: Vec<u8>,
+}
+
 /// What is shown.
 pub(super) struct Show<'a> {
     pub(super) title: &'a str,
-    /// The name of each frame, and its bytes.
-    pub(super) frames: &'a [(String, Vec<u8>)],
-    pub(super) cube: Cube,
+    pub(super) frames: &'a [Framed],
     /// The axis that points up: `y` or `z`.
     pub(super) up: &'static str,
 }
 
 /// The page as HTML; it names no other file.
 pub(super) fn page(show: &Show<'_>) -> String {
-    let center = 0.5 * show.cube.extent;
+    let cube = Cube::around_all(show.frames.iter().map(|frame| &frame.cube)).unwrap_or(Cube::of(&[]));
+    let center = 0.5 * cube.extent;
     // Of a point: what is seen of it does not matter.
     let radius = if center == DVec3::ZERO { 0.5 } else { center.length() };
-    let names: Vec<&str> = show.frames.iter().map(|(name, _)| name.as_str()).collect();
+    let told = |frame: &Framed| {
+        let place = frame.cube.within(&cube);
+        json!({ "name": frame.name, "corner": place.corner.to_array(), "side": place.side })
+    };
     let meta = json!({
-        "frames": names,
+        "frames": show.frames.iter().map(told).collect::<Vec<_>>(),
         "center": center.to_array(),
         "radius": radius,
         "up": show.up,
@@ -53,8 +62,9 @@ pub(super) fn page(show: &Show<'_>) -> String {
          <label><input id=\"flat\" type=\"checkbox\"> flat</label>\n\
          <span class=\"help\">drag turns, shift or the right button moves, the wheel zooms, r resets</span>\n</footer>\n"
     );
-    for (k, (_, bytes)) in show.frames.iter().enumerate() {
-        let _ = writeln!(html, "<script type=\"text/plain\" id=\"data-{k}\">{}</script>", base64(bytes));
+    for (k, frame) in show.frames.iter().enumerate() {
+        let _ =
+            writeln!(html, "<script type=\"text/plain\" id=\"data-{k}\">{}</script>", base64(&frame.bytes));
     }
     let _ = write!(
         html,

@@ -32,7 +32,8 @@ const Viewer = (() => {
     return out;
   };
 
-  const unpack = (bytes) => {
+  // In the unit of the page: the side of the cube around all frames. That of the frame lies at `place` in it.
+  const unpack = (bytes, place) => {
     const view = new DataView(bytes.buffer, bytes.byteOffset);
     const vertices = view.getUint32(0, true), triangles = view.getUint32(4, true);
     const colored = view.getUint32(8, true) === 1;
@@ -41,7 +42,7 @@ const Viewer = (() => {
     for (let axis = 0; axis < 3; axis++) {
       const steps = numbers(bytes, at, vertices, 3);
       at += 3 * vertices;
-      for (let i = 0; i < vertices; i++) positions[3 * i + axis] = steps[i] / 1048576;
+      for (let i = 0; i < vertices; i++) positions[3 * i + axis] = place.corner[axis] + steps[i] * (place.side / 1048576);
     }
     const corners = new Uint32Array(numbers(bytes, at, 3 * triangles, 4));
     at += 12 * triangles;
@@ -49,7 +50,7 @@ const Viewer = (() => {
     return { vertices, triangles, positions, corners, colors };
   };
 
-  const read = async (text) => unpack(await inflate(toBytes(text)));
+  const read = async (text, place) => unpack(await inflate(toBytes(text)), place);
 
   // Twice the area of a triangle times its normal, into `out`.
   const normalOf = (p, a, b, c, out) => {
@@ -182,7 +183,7 @@ const Viewer = (() => {
       if (!frames.has(k)) {
         // So many are kept at most.
         if (frames.size > 60) frames.delete(frames.keys().next().value);
-        frames.set(k, await read($(`data-${k}`).textContent));
+        frames.set(k, await read($(`data-${k}`).textContent, meta.frames[k]));
       }
       return frames.get(k);
     };
@@ -197,7 +198,7 @@ const Viewer = (() => {
       draw(frame, eye, width, height, image.data, options);
       if (scale === 1) slow = performance.now() - begin > 50;
       context.putImageData(image, 0, 0);
-      $("what").textContent = `${meta.frames[k]}: ${frame.vertices.toLocaleString("en")} vertices, ` +
+      $("what").textContent = `${meta.frames[k].name}: ${frame.vertices.toLocaleString("en")} vertices, ` +
         `${frame.triangles.toLocaleString("en")} triangles`;
       slider.value = k;
     };
