@@ -23,7 +23,8 @@
 //!   is put back, so the order of the path is that of the method.
 //! * What is in the solid for another reason, as a new vertex in the middle of an edge along a round wall, or smoke that is released
 //!   in it, is outside after the next step: at the nearest wall, as far as the gradient leads there.
-//! * Of solids at rest without an anchor, one [`Bounded`] in another, all walls hold, also where their layers overlap.
+//! * Of solids at rest without an anchor, one [`Bounded`] in another, all walls hold, also where their layers overlap. Of any solids,
+//!   no step ends in one of them ([`confined`](welter_tracking::flows::confined)), also where they touch or overlap.
 //! * Velocities have as many continuous derivatives as the gradient of the distance and the potential, up to four.
 //!
 //! # What it does not promise
@@ -33,6 +34,7 @@
 //!   in direction. The part across the kink does not, so there is no divergence in the kink.
 //! * Tangential flow on edges and corners, where there is no normal; there steps of any length have to be put back.
 //! * The volume of what is put out of the solid.
+//! * To keep anybody out of a face that two solids share, which is in neither of them; solids that overlap a little have none.
 //! * To see solids between the ends of a step that are thinner than 1/1024 of the width; or a place for a point that moving solids
 //!   leave none.
 //! * A flow inside that means something: it is that of the odd ramp, against the flow outside, and does not lead out. To keep a flow
@@ -150,7 +152,10 @@ impl<P: VectorPotential, S: ScalarField> VelocityField for Bounded<P, S> {
     }
 
     fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
-        let to = self.flow.confine(from, to, times);
+        let end = self.flow.confine(from, to, times);
+        if end != to {
+            return end;
+        }
         let displacements = times.map(|time| self.motion(time).0);
         Wall { solid: &self.solid, displacements, width: self.parameters.ramp_width }.confine(from, to)
     }

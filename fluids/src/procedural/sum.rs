@@ -72,6 +72,7 @@ impl<F: VelocityField> VelocityField for WeightedSum<F> {
     }
 
     fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
-        self.parts.iter().fold(to, |end, it| it.part.confine(from, end, times))
+        let mut ends = self.parts.iter().map(|it| it.part.confine(from, to, times));
+        ends.find(|&end| end != to).unwrap_or(to)
     }
 }

@@ -240,6 +240,46 @@ fn several_walls_hold_at_once() {
     assert!((1..15).contains(&stayed), "{stayed}");
 }
 
+/// Solids side by side or in each other are left as one is, and not only for the next of them.
+#[test]
+fn solids_side_by_side_hold_as_one() {
+    let cuboid = |low: f64, high: f64| {
+        let [min, max] = [DVec3::new(low, -0.5, -0.5), DVec3::new(high, 0.5, 0.25)];
+        AnyField::new(Cuboid { min, max, rounding: 0.0 })
+    };
+    let whole = cuboid(-0.5, 0.5);
+    let ball = AnyField::new(Ball { center: DVec3::new(0.0, 0.0, 0.45), radius: 0.5 });
+    let floor = AnyField::new(HalfSpace { point: DVec3::ZERO, normal: DVec3::Z });
+    let both = AnyField::new(Union { parts: vec![ball.clone(), floor.clone()], blend_width: 0.0 });
+    let scenes = [
+        ("touching", cuboid(-0.5, 0.0), cuboid(0.0, 0.5), whole.clone()),
+        ("overlapping", cuboid(-0.5, 0.0625), cuboid(-0.0625, 0.5), whole),
+        ("a ball sunk in a floor", ball, floor, both),
+    ];
+    let resting = BoundaryParameters { ramp_width: 0.25, ..Default::default() };
+    for (name, one, other, whole) in scenes {
+        let walls = Bounded::new(around(one.clone(), 0.25), other.clone(), &resting).unwrap();
+        // A face that two solids share is in neither.
+        let outside = |p: DVec3| whole.value(p) >= 0.0 || (one.value(p) == 0.0 && other.value(p) == 0.0);
+        let (mut counts, mut farthest) = ([0, 0], 0.0_f64);
+        for pair in points(4 * particles(), 0.7, 75).chunks_exact(2) {
+            let (from, to) = (pair[0], pair[1]);
+            let within = [from, to].map(|place| whole.value(place) < 0.0);
+            let end = confined(&walls, from, to, [0.0, 1.0]);
+            assert!(outside(end), "{name}: from {from} to {to} ended at {end}");
+            if within[1] {
+                counts[usize::from(within[0])] += 1;
+                // A point that rests gets out a few times as far away as the wall is.
+                let out = confined(&walls, to, to, [0.0, 1.0]);
+                assert!(outside(out), "{name}: {to} ended at {out}");
+                farthest = farthest.max(out.distance(to) / -whole.value(to));
+            }
+        }
+        println!("{name}: {counts:?}, {farthest} as far");
+        assert!(counts.iter().all(|&count| count > 20), "{name}: {counts:?}");
+    }
+}
+
 /// Relative to a solid that moves: what it meets it takes along, at any speed and step.
 #[test]
 fn moving_walls_run_over_nobody() {

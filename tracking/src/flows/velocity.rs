@@ -17,21 +17,25 @@ pub trait VelocityField: Sync {
     /// Where a step of a point ends, if it would end at `to` by the velocities alone: fields with walls put back what has crossed
     /// one, for a step has an error, and its path is not known between its ends. `times` are those of the beginning and the end.
     ///
-    /// Each wall is looked at once, and where there are several, the last holds; [`confined`] repeats it until all hold. A field in
-    /// others is asked by them. Default: there are no walls, so `to`, bit for bit, which is also what those with walls give where
-    /// there is nothing to be put back.
+    /// Of several walls, the first that does not hold puts the end back by itself; [`confined`] repeats it until all hold. So an end
+    /// that is given back as it is, is beside all walls. A field in others is asked by them. Default: there are no walls, so `to`,
+    /// bit for bit, which is also what those with walls give where there is nothing to be put back.
     fn confine(&self, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
         let _ = (from, times);
         to
     }
 }
 
-/// How often walls are looked at in turn. Between two walls at a right angle one round is enough; at others errors fall by the square of
-/// the cosine of the angle with each.
-const ROUNDS: usize = 16;
+/// How often a wall puts an end back. For two walls at a right angle twice is enough; at others errors fall by the cosine of the angle
+/// with each.
+const TURNS: usize = 32;
 
-/// The end of a step beside all walls of a field: [`VelocityField::confine`], until nothing changes. If that is not so after 16 rounds,
-/// as where walls meet at a small angle, the point stays with the walls: at the start, if they are at rest.
+/// How often an end is put beyond a wall, each time twice as far: from roundings to the size of a solid.
+const PUSHES: usize = 64;
+
+/// The end of a step beside all walls of a field: [`VelocityField::confine`], until nothing changes. If that is not so after 32 times,
+/// as where walls meet at a small angle, the point stays with the walls: at the start, if they are at rest. If it was in one of
+/// several that put it into each other, as solids side by side do, it is put out beyond them, ever farther, until it is beside all.
 ///
 /// ```
 /// use glam::DVec3;
@@ -50,15 +54,40 @@ const ROUNDS: usize = 16;
 /// assert_eq!(confined(&Corner, DVec3::ONE, DVec3::new(-1.0, 2.0, -1.0), [0.0, 2.0]), 2.0 * DVec3::Y);
 /// ```
 pub fn confined(field: &impl VelocityField, from: DVec3, to: DVec3, times: [f64; 2]) -> DVec3 {
-    let mut end = to;
-    for _ in 0..ROUNDS {
+    in_turn(field, from, to, times).unwrap_or_else(|last| {
+        in_turn(field, from, from, times)
+            .ok()
+            .or_else(|| beyond(field, from, last, times))
+            .unwrap_or_else(|| field.confine(from, from, times))
+    })
+}
+
+/// An end beside all walls, or one that is not after many turns.
+fn in_turn(field: &impl VelocityField, from: DVec3, mut end: DVec3, times: [f64; 2]) -> Result<DVec3, DVec3> {
+    for _ in 0..TURNS {
         let next = field.confine(from, end, times);
         if next == end || !next.is_finite() {
-            return next;
+            return Ok(next);
         }
         end = next;
     }
-    field.confine(from, from, times)
+    Err(end)
+}
+
+/// An end beside all walls, where those that put it back put it into each other: it is put beyond each by more and more, until
+/// another wall leads out.
+fn beyond(field: &impl VelocityField, from: DVec3, mut end: DVec3, times: [f64; 2]) -> Option<DVec3> {
+    let mut push = 0.0;
+    for _ in 0..PUSHES {
+        let next = field.confine(from, end, times);
+        if next == end || field.confine(from, next, times) == next {
+            return Some(next);
+        }
+        let gone = next - end;
+        push = if push == 0.0 { gone.length() } else { 2.0 * push };
+        end = next + push * gone.normalize_or_zero();
+    }
+    None
 }
 
 impl<F: Fn(DVec3, f64) -> DVec3 + Sync> VelocityField for F {
