@@ -143,6 +143,30 @@ fn faults_of_scenes_are_told_with_their_line() {
         (with("[output]", "[topology]\nenabled = true\n[output]"), "W5004", 13, ""),
         (with("[output]", "[smoke]\ncoarsening = 1\n[output]"), "W5004", 14, ""),
         (with("[output]", "[[solids]]\nkind = \"ball\"\nradius = 1\n[output]"), "W5003", 13, "ramp_width"),
+        (
+            with("[output]", "[[solids]]\nkind = \"ball\"\nradius = -1\nramp_width = 1\n[output]"),
+            "W5004",
+            15,
+            "",
+        ),
+        (
+            with(
+                "[output]",
+                "[[solids]]\nkind = \"box\"\nmin = [0, 0, 0]\nmax = [1, 0, 1]\nramp_width = 1\n[output]",
+            ),
+            "W5004",
+            16,
+            "",
+        ),
+        (
+            with(
+                "[output]",
+                "[[solids]]\nkind = \"capsule\"\nends = [[0, 0, 1]]\nradius = 1\nramp_width = 1\n[output]",
+            ),
+            "W5004",
+            15,
+            "",
+        ),
         (with("[output]", "[rendre]\nextinction = 1\n[output]"), "W5002", 13, "`render`"),
         (with("[output]", "[render]\nextinktion = 1\n[output]"), "W5003", 13, "extinction = "),
         (with("[output]", "[render]\nextinction = 1\nalbdeo = [1, 1, 1]\n[output]"), "W5002", 15, "`albedo`"),

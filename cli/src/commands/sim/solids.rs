@@ -114,10 +114,21 @@ impl Solid {
 fn read_ends(table: &mut Settings<'_>) -> Result<[DVec3; 2], Box<Failure>> {
     let wanted = "an array of two points, such as [[0, 0, 0], [0, 0, 1]]";
     let rows: Vec<[f64; 3]> = table.rows("ends", wanted, false)?;
-    let [a, b] = rows[..] else { return Err(table.bad("ends", wanted)) };
+    let [a, b] = rows[..] else {
+        return Err(
+            table.bad("ends", format!("`ends` is an array of {}, and {wanted} is wanted", rows.len()))
+        );
+    };
     Ok([a, b].map(DVec3::from_array))
 }
 
+/// A fault at the key that an error names.
 fn valid(table: &Settings<'_>, valid: Result<(), FieldError>) -> Result<(), Box<Failure>> {
-    valid.map_err(|error| table.bad("kind", error.to_string()))
+    valid.map_err(|error| {
+        let key = match error {
+            FieldError::Parameter { parameter, .. } => parameter,
+            _ => "kind",
+        };
+        table.bad(key, error.to_string())
+    })
 }

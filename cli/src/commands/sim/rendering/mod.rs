@@ -242,5 +242,5 @@ pub(super) fn require_color(
     if color.iter().all(|c| (0.0..=MOST).contains(c)) {
         return Ok(());
     }
-    Err(table.bad(key, format!("red, green and blue from 0 to {MOST} are wanted")))
+    Err(table.bad(key, format!("`{key}` is {color:?}, and red, green and blue from 0 to {MOST} are wanted")))
 }
