@@ -26,11 +26,13 @@ pub trait VelocityField: Sync {
     }
 }
 
-/// How often a wall puts an end back. For two walls at a right angle twice is enough; at others errors fall by the cosine of the angle
-/// with each.
+/// How often a wall puts an end back. For two plane walls three times are enough, since their crease is known after two.
 const TURNS: usize = 32;
 
-/// How often an end is put beyond a wall, each time twice as far: from roundings to the size of a solid.
+/// How much farther toward a crease than by the last wall an end is put at once.
+const FARTHEST: f64 = 8.0;
+
+/// How often an end is put beyond a wall, each time twice as far, at most: from roundings to the size of a solid.
 const PUSHES: usize = 64;
 
 /// The end of a step beside all walls of a field: [`VelocityField::confine`], until nothing changes. If that is not so after 32 times,
@@ -62,16 +64,36 @@ pub fn confined(field: &impl VelocityField, from: DVec3, to: DVec3, times: [f64;
     })
 }
 
-/// An end beside all walls, or one that is not after many turns.
+/// An end beside all walls, or one that is not after many turns. Two that put it back into each other are left along their crease.
 fn in_turn(field: &impl VelocityField, from: DVec3, mut end: DVec3, times: [f64; 2]) -> Result<DVec3, DVec3> {
+    let mut before = DVec3::ZERO;
     for _ in 0..TURNS {
         let next = field.confine(from, end, times);
         if next == end || !next.is_finite() {
             return Ok(next);
         }
-        end = next;
+        let gone = next - end;
+        (end, before) = match to_crease(before, gone) {
+            Some(step) => (next + step, DVec3::ZERO),
+            None => (next, gone),
+        };
     }
     Err(end)
+}
+
+/// From a point that one plane wall was left for by a displacement, and another one by a second that leads back: along the other one to
+/// the crease of both, or toward it if it is far.
+fn to_crease(first: DVec3, second: DVec3) -> Option<DVec3> {
+    let [one, other] = [first, second].map(DVec3::normalize_or_zero);
+    let behind = -one.dot(second);
+    let along = one - one.dot(other) * other;
+    let square = along.length_squared();
+    // Of walls that are parallel within roundings there is none.
+    if !(behind > 0.0 && square > 1e-20) {
+        return None;
+    }
+    let step = behind / square * along;
+    Some(step.clamp_length_max(FARTHEST * second.length()))
 }
 
 /// An end beside all walls, where those that put it back put it into each other: it is put beyond each by more and more, until
