@@ -29,8 +29,9 @@ pub(super) const NO_STEP: f64 = f64::NAN;
 /// How far beside the wall an end is put, in widths. Told at the top.
 const MARGIN: f64 = 1.0 / (1_u64 << 40) as f64;
 
-/// How often an end is brought out along the gradient. The margin grows fourfold each time, so that roundings cannot hold it up.
-const ITERATIONS: u32 = 12;
+/// How often an end is brought out along the gradient. The margin grows fourfold each time, to 64 widths, so that neither roundings hold it
+/// up nor seams, where parts of a union lead into each other.
+const ITERATIONS: u32 = 24;
 
 /// The least length between two places of a step where the wall is looked for, in widths; and in steps after as many places.
 const LEAST_LENGTH: f64 = 1.0 / 1024.0;
@@ -94,7 +95,7 @@ impl<S: ScalarField> Wall<'_, S> {
             let gone = end.distance(to);
             let most = *reach.get_or_insert(2.0 * gone);
             if self.value(end) >= 0.0 {
-                return (gone <= most + 2.0 * margin).then_some(end);
+                return (end.is_finite() && gone <= most + 2.0 * margin).then_some(end);
             }
             margin *= 4.0;
         }

@@ -275,6 +275,11 @@ fn solids_side_by_side_hold_as_one() {
                 farthest = farthest.max(out.distance(to) / -whole.value(to));
             }
         }
+        let united = around(Union { parts: vec![one.clone(), other.clone()], blend_width: 0.0 }, 0.25);
+        for place in points(particles(), 0.7, 76) {
+            let out = confined(&united, place, place, [0.0, 1.0]);
+            assert!(outside(out), "{name}, as one field: {place} ended at {out}");
+        }
         println!("{name}: {counts:?}, {farthest} as far");
         assert!(counts.iter().all(|&count| count > 20), "{name}: {counts:?}");
     }

@@ -90,6 +90,10 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     let title = shown(&args.input);
     let page = page(&Show { title: &title, frames: &frames, up });
     console.progress.clear();
+    let shown_frames = match frames.len() {
+        1 => "1 frame".to_owned(),
+        count => format!("{} frames", grouped(count as u64)),
+    };
     let mut object = json!({
         "input": title,
         "frames": frames.len(),
@@ -100,12 +104,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
     });
     if let (Some(output), Some(html)) = (output, &args.html) {
         output.write(|file| file.write_all(page.as_bytes()).map_err(WriteProblem::from))?;
-        console.note(&format!(
-            "{}: {} frames, {} bytes",
-            html.display(),
-            frames.len(),
-            grouped(page.len() as u64)
-        ));
+        console.note(&format!("{}: {shown_frames}, {} bytes", html.display(), grouped(page.len() as u64)));
         object["output"] = json!(shown(html));
         console.object(&object)?;
     }
@@ -113,7 +112,7 @@ pub(crate) fn run(args: &Args, run: &Run) -> Outcome {
         let asking = Asking::to_leave();
         object["url"] = json!(server.url());
         console.object(&object)?;
-        console.note(&format!("{} frames at {} until Ctrl-C", frames.len(), server.url()));
+        console.note(&format!("{shown_frames} at {} until Ctrl-C", server.url()));
         server.serve(&page, asking.flag());
     }
     Ok(0)
