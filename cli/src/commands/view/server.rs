@@ -1,4 +1,4 @@
-//! The page on this machine alone: [`serve`].
+//! The page on this machine alone: [`Server`].
 //!
 //! Promises: it listens on 127.0.0.1 only; whatever comes, a request is answered with the page or refused, and one that does not end is given up
 //! after some seconds. There is one page, so what is asked for is not looked at beyond its first line.
