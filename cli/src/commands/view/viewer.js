@@ -240,7 +240,9 @@ const Viewer = (() => {
       ask();
     }, { passive: false });
     document.addEventListener("keydown", (event) => {
-      if (event.target === slider && event.key.startsWith("Arrow")) return;
+      // What has the focus takes its own keys.
+      const focus = event.target?.tagName;
+      if ((focus === "INPUT" || focus === "BUTTON") && /^(Arrow|Home|End| )/.test(event.key)) return;
       const does = {
         " ": play, ArrowRight: () => go(now + 1), ArrowLeft: () => go(now - 1), Home: () => go(0), End: () => go(-1),
         e: () => toggle("edges"), f: () => toggle("flat"), r: () => { eye = camera(meta); ask(); },
