@@ -15,7 +15,7 @@
 //!   within the rounding of their displacement. So is that of a step that begins inside, if the gradient leads out.
 //! * An end that has nothing to be mended is given back as it is, bit for bit.
 //! * An end is moved by no more than it was beyond the wall, up to the second order in that, and 2^-40 of a width, where the field is a
-//!   smooth distance. So orders of convergence stay.
+//!   smooth distance. So orders of convergence stay. Out of a union, whose field is no distance inside, it is moved by at most 16 times as much.
 //!
 //! # What it does not promise
 //! To see solids in between that are thinner than 1/1024 of the width, or whose field changes by more than one per unit of length.
@@ -32,6 +32,10 @@ const MARGIN: f64 = 1.0 / (1_u64 << 40) as f64;
 /// How often an end is brought out along the gradient. The margin grows fourfold each time, to 64 widths, so that neither roundings hold it
 /// up nor seams, where parts of a union lead into each other.
 const ITERATIONS: u32 = 24;
+
+/// How many times farther than by the first iteration a point is brought out: from part to part of a union. Farther, it was a field that is no
+/// distance which threw it there.
+const FARTHEST: f64 = 16.0;
 
 /// The least length between two places of a step where the wall is looked for, in widths; and in steps after as many places.
 const LEAST_LENGTH: f64 = 1.0 / 1024.0;
@@ -85,7 +89,7 @@ impl<S: ScalarField> Wall<'_, S> {
     }
 
     /// Along the gradient out of the solid, if it leads there: within `reach`, where a place outside is known at that distance,
-    /// else within twice the first iteration.
+    /// else within some multiple of the first iteration.
     fn brought_out(&self, to: DVec3, reach: Option<f64>) -> Option<DVec3> {
         let (mut end, mut margin) = (to, MARGIN * self.width);
         let mut reach = reach;
@@ -93,7 +97,7 @@ impl<S: ScalarField> Wall<'_, S> {
             let gradient = self.gradient(end);
             end += (margin - self.value(end)) / gradient.length_squared() * gradient;
             let gone = end.distance(to);
-            let most = *reach.get_or_insert(2.0 * gone);
+            let most = *reach.get_or_insert(FARTHEST * gone);
             if self.value(end) >= 0.0 {
                 return (end.is_finite() && gone <= most + 2.0 * margin).then_some(end);
             }
