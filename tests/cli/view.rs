@@ -1,11 +1,11 @@
 //! `welter view`.
 
-use crate::harness::{Bench, Ran};
+use crate::harness::Bench;
 use serde_json::Value;
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 
 const TETRAHEDRON: &str = "v 0 0 0\nv 4 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
@@ -94,6 +94,16 @@ fn the_page_draws_what_the_files_hold() {
     assert!(texts[3].starts_with("frame 2:"), "{texts:?}");
 }
 
+/// A server that does not outlive the test, however that ends.
+struct Served(Child);
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
 fn get(at: &str, request: &str) -> String {
     let mut stream = TcpStream::connect(at).unwrap();
     stream.write_all(request.as_bytes()).unwrap();
@@ -107,8 +117,9 @@ fn the_page_is_served_to_this_machine_until_ctrl_c() {
     let bench = Bench::new();
     bench.file("a.obj", TETRAHEDRON);
     bench.run("view a.obj --html a.html").ok();
-    let mut child = bench.command(&["view", "a.obj", "--json"]).stdout(Stdio::piped()).spawn().unwrap();
-    let told = serde_json::Deserializer::from_reader(child.stdout.take().unwrap());
+    let child = bench.command(&["view", "a.obj", "--json"]).stdout(Stdio::piped()).spawn().unwrap();
+    let mut served = Served(child);
+    let told = serde_json::Deserializer::from_reader(served.0.stdout.take().unwrap());
     let object = told.into_iter::<Value>().next().unwrap().unwrap();
     let url = object["url"].as_str().unwrap();
     let at = url.strip_prefix("http://").and_then(|at| at.strip_suffix('/')).unwrap();
@@ -124,10 +135,9 @@ fn the_page_is_served_to_this_machine_until_ctrl_c() {
     let _ = rude.write_all(&vec![b'x'; 40_000]);
     drop(rude);
     assert!(get(at, "GET / HTTP/1.1\r\n\r\n").starts_with("HTTP/1.1 200 OK"));
-    let kill = format!("kill -INT {}", child.id());
+    let kill = format!("kill -INT {}", served.0.id());
     assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
-    let ran = Ran::of(child.wait_with_output().unwrap());
-    assert_eq!(ran.exit, Some(0), "{}", ran.err);
+    assert_eq!(served.0.wait().unwrap().code(), Some(0));
 }
 
 #[test]
