@@ -23,8 +23,9 @@
 //!   is put back, so the order of the path is that of the method.
 //! * What is in the solid for another reason, as a new vertex in the middle of an edge along a round wall, or smoke that is released
 //!   in it, is outside after the next step: at the nearest wall, as far as the gradient leads there.
-//! * Of solids at rest without an anchor, one [`Bounded`] in another, all walls hold, also where their layers overlap. Of any solids,
-//!   no step ends in one of them ([`confined`](welter_tracking::flows::confined)), also where they touch or overlap.
+//! * Of solids at rest without an anchor, one [`Bounded`] in another, all walls hold, also where their layers overlap. Steps
+//!   end in none of several solids ([`confined`](welter_tracking::flows::confined)), also where these touch or overlap, as far as
+//!   gradients lead out; of solids that move within roundings, and where they leave a place.
 //! * Velocities have as many continuous derivatives as the gradient of the distance and the potential, up to four.
 //!
 //! # What it does not promise

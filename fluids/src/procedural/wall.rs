@@ -15,7 +15,8 @@
 //!   within the rounding of their displacement. So is that of a step that begins inside, if the gradient leads out.
 //! * An end that has nothing to be mended is given back as it is, bit for bit.
 //! * An end is moved by no more than it was beyond the wall, up to the second order in that, and 2^-40 of a width, where the field is a
-//!   smooth distance. So orders of convergence stay. Out of a union, whose field is no distance inside, it is moved by at most 16 times as much.
+//!   smooth distance. So orders of convergence stay. Out of a union, whose field is no distance inside, it is moved by at most 16 times as
+//!   much as by the first iteration, and twice the margin, which grows where parts lead into each other.
 //!
 //! # What it does not promise
 //! To see solids in between that are thinner than 1/1024 of the width, or whose field changes by more than one per unit of length.
@@ -34,7 +35,7 @@ const MARGIN: f64 = 1.0 / (1_u64 << 40) as f64;
 const ITERATIONS: u32 = 24;
 
 /// How many times farther than by the first iteration a point is brought out: from part to part of a union. Farther, it was a field that is no
-/// distance which threw it there.
+/// distance which threw it there. The most that was met in tests of unions of two was 3.6.
 const FARTHEST: f64 = 16.0;
 
 /// The least length between two places of a step where the wall is looked for, in widths; and in steps after as many places.

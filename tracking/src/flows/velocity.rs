@@ -26,10 +26,11 @@ pub trait VelocityField: Sync {
     }
 }
 
-/// How often a wall puts an end back. For two plane walls three times are enough, since their crease is known after two.
+/// How often a wall puts an end back. For two plane walls a few times are enough, since their crease is known after two.
 const TURNS: usize = 32;
 
-/// How much farther toward a crease than by the last wall an end is put at once.
+/// How much farther toward a crease than by the last wall an end is put at once: where tangent planes are nearly parallel, their
+/// crease may be anywhere, and the next turn knows better. Chosen, not tuned.
 const FARTHEST: f64 = 8.0;
 
 /// How often an end is put beyond a wall, each time twice as far, at most: from roundings to the size of a solid.
